@@ -1,0 +1,107 @@
+// What a master and a worker say to each other.
+//
+// The conversation; either side may have dialled.
+//   worker -> master  Hello         who I am, what I speak; the first frame, within 5 s
+//   master -> worker  Welcome       you are in (a name already taken is made unique)          or
+//   master -> worker  Refused       why, and what to do; the connection ends
+//   master -> worker  SceneData     once per scene and worker, before the first job that shows it
+//   master -> worker  JobStart      settings for a job of a scene already sent
+//   master -> worker  Assignment    render these passes of this tile
+//   worker -> master  Result        the passes, pixel for pixel, with their exact counters; ends the lease
+//   worker -> master  GiveBack      leases it will not finish (clean stop, or the job could not be started: why)
+//   master -> worker  Revoke        stop these leases now; nothing is answered for them
+//   master -> worker  JobEnd        forget the job, and its scene when no other job of it is left
+//   both              Heartbeat     each 0.5 s while nothing else is said; 2 s of silence end the connection
+//   both              Goodbye       a clean end, with the reason
+// A lease is good for exactly one Result. The master drops what comes for a lease it has revoked (after comparing
+// the pixels with those that another worker delivered).
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/render/film.h"
+#include "common/render/settings.h"
+
+namespace rayfarm {
+
+constexpr std::uint16_t protocol_version = 1;
+constexpr std::uint16_t default_farm_port = 5411;
+constexpr auto heartbeat_interval = std::chrono::milliseconds(500);
+constexpr auto peer_patience = std::chrono::seconds(2);       // four missed heartbeats
+constexpr auto handshake_patience = std::chrono::seconds(5);  // for Hello and for Welcome
+
+enum class JobId : std::uint64_t {};
+enum class LeaseId : std::uint64_t {};
+
+struct Hello {
+  std::uint16_t protocol = protocol_version;
+  std::string version;  // of the software, for people
+  std::string name;
+  std::string cpu;
+  std::uint32_t threads = 1;
+  bool operator==(const Hello&) const = default;
+};
+struct Welcome {
+  std::string name;  // as the master will call this worker
+  bool operator==(const Welcome&) const = default;
+};
+struct Refused {
+  std::string reason;
+  bool operator==(const Refused&) const = default;
+};
+/// Encoded scenes are shared, never copied: one buffer for all workers.
+using SharedBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+struct SceneData {
+  std::string hash;   // SHA-256 of the bytes, hexadecimal
+  SharedBytes bytes;  // encode_scene()
+};
+struct JobStart {
+  JobId job{};
+  std::string scene_hash;
+  RenderSettings settings;
+  bool operator==(const JobStart&) const = default;
+};
+struct Assignment {
+  LeaseId lease{};
+  JobId job{};
+  std::uint32_t tile = 0;
+  PassSet passes = 0;
+  bool operator==(const Assignment&) const = default;
+};
+struct Result {
+  LeaseId lease{};
+  JobId job{};
+  std::uint32_t tile = 0;
+  std::vector<PassImage> images;
+  double seconds = 0;  // of one thread, wall time
+  bool operator==(const Result&) const = default;
+};
+struct GiveBack {
+  std::vector<LeaseId> leases;
+  std::string reason;
+  bool operator==(const GiveBack&) const = default;
+};
+struct Revoke {
+  std::vector<LeaseId> leases;
+  bool operator==(const Revoke&) const = default;
+};
+struct JobEnd {
+  JobId job{};
+  bool operator==(const JobEnd&) const = default;
+};
+struct Heartbeat {
+  bool operator==(const Heartbeat&) const = default;
+};
+struct Goodbye {
+  std::string reason;
+  bool operator==(const Goodbye&) const = default;
+};
+
+using ToWorker = std::variant<Welcome, Refused, SceneData, JobStart, Assignment, Revoke, JobEnd, Heartbeat, Goodbye>;
+using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye>;
+
+}  // namespace rayfarm

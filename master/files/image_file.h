@@ -1,0 +1,37 @@
+// Pictures on disk: EXR (linear float32) and PNG (8 bit), by OpenImageIO.
+//
+// Whole files are a function of the pixels and the given facts alone: no time stamps, no host names.
+// A file is written beside its target and renamed, so a failed write leaves the old one as it was.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "common/render/tile.h"
+
+namespace rayfarm {
+
+struct FileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Picture {
+  Size size;
+  std::vector<float> rgb;                     // row-major, linear Rec. 709
+  std::map<std::string, std::string> facts;   // "rayfarm:seed" -> "0" ..., into the header
+};
+
+enum class PngCurve : std::uint8_t { gamma22, srgb };
+
+/// Throws FileError unless the name ends in .exr or .png and a file can be made there. Changes nothing.
+void check_writable(const std::filesystem::path& file);
+void write_picture(const std::filesystem::path& file, const Picture& picture, PngCurve curve = PngCurve::gamma22);
+/// PNG bytes, for the web page.
+std::vector<std::uint8_t> png_bytes(const Picture& picture, PngCurve curve = PngCurve::gamma22);
+/// EXR as stored; PNG values 0..1 as stored (not linearised).
+Picture read_picture(const std::filesystem::path& file);
+
+}  // namespace rayfarm
