@@ -1,7 +1,8 @@
 // The picture's division into work: 64x64 tiles, each in four passes of strides 8, 4, 2, 1.
 //
-// Source of the idea: Adam7 interlacing (PNG). A pass holds the pixels on its stride's grid that no coarser pass
-// holds, so nothing is computed twice; until finer passes come, a pixel's value fills its stride x stride square.
+// Source of the idea: Adam7 interlacing (PNG). A pass holds the pixels on its stride's grid that no coarser
+// pass holds, so nothing is computed twice; until finer passes come, a pixel's value fills its stride x
+// stride square.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -40,13 +41,16 @@ Tile tile_at(Size film, std::uint32_t number);
 std::vector<std::uint32_t> centre_first(Size film);
 
 /// Calls visit(x, y) for the pixels of one pass, row by row, in the order in which their values travel.
+/// The tile must be a film's: its corner lies on the coarsest grid.
 template <class Visit>
 void for_each_pixel(const Tile& tile, int pass, Visit&& visit) {
-  const std::uint32_t stride = pass_stride[pass];
-  const std::uint32_t coarser = pass == 0 ? 0 : 2 * stride;
-  for (std::uint32_t y = tile.y0; y < tile.y1; y += stride)
-    for (std::uint32_t x = tile.x0; x < tile.x1; x += stride)
-      if (coarser == 0 || x % coarser != 0 || y % coarser != 0) visit(x, y);
+  const std::uint32_t stride = pass_stride[pass], coarser = 2 * stride;
+  for (std::uint32_t y = tile.y0; y < tile.y1; y += stride) {
+    const bool row_has_coarser = pass != 0 && y % coarser == 0;
+    const std::uint32_t first = tile.x0 + (row_has_coarser ? stride : 0);
+    const std::uint32_t step = row_has_coarser ? coarser : stride;
+    for (std::uint32_t x = first; x < tile.x1; x += step) visit(x, y);
+  }
 }
 
 std::uint32_t pixel_count(const Tile& tile, int pass);
