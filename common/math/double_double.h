@@ -1,0 +1,49 @@
+// A number as an unevaluated sum hi + lo of two doubles, |lo| <= ulp(hi) / 2: about 106 bits.
+// Source: T. J. Dekker, A Floating-Point Technique for Extending the Available Precision, Numer. Math. 18,
+// 1971.
+#pragma once
+#include <cmath>
+
+namespace rayfarm {
+
+struct DoubleDouble {
+  double hi = 0, lo = 0;
+};
+
+/// a + b exactly.
+inline DoubleDouble two_sum(double a, double b) {
+  const double s = a + b, t = s - a;
+  return {s, (a - (s - t)) + (b - t)};
+}
+/// a + b exactly, for |a| >= |b|.
+inline DoubleDouble fast_two_sum(double a, double b) {
+  const double s = a + b;
+  return {s, b - (s - a)};
+}
+/// a * b exactly, unless it underflows.
+inline DoubleDouble two_product(double a, double b) {
+  const double p = a * b;
+  return {p, std::fma(a, b, -p)};
+}
+/// The relative error of these is a few 2^-105, of the sum that of cancelled terms beside.
+inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
+  const DoubleDouble s = two_sum(a.hi, b.hi);
+  return fast_two_sum(s.hi, s.lo + (a.lo + b.lo));
+}
+inline DoubleDouble operator-(const DoubleDouble& a) { return {-a.hi, -a.lo}; }
+inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
+inline DoubleDouble operator*(const DoubleDouble& a, double b) {
+  const DoubleDouble p = two_product(a.hi, b);
+  return fast_two_sum(p.hi, p.lo + a.lo * b);
+}
+inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
+  const DoubleDouble p = two_product(a.hi, b.hi);
+  return fast_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
+  const double q = a.hi / b.hi;
+  const double rest = std::fma(-q, b.hi, a.hi) + (a.lo - q * b.lo);
+  return fast_two_sum(q, rest / b.hi);
+}
+
+}  // namespace rayfarm

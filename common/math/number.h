@@ -1,0 +1,21 @@
+// What geometry over a number type needs besides + - * /: the same words for one double and, later, for a pack.
+#pragma once
+#include <cmath>
+#include <limits>
+
+namespace rayfarm {
+
+/// Half the distance from 1 to the next double: each operation is right to within this factor.
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A bound on the relative error of n operations in a row. Source: N. J. Higham, Accuracy and Stability of
+/// Numerical Algorithms, section 3.1 (gamma_n).
+constexpr double gamma_bound(int n) { return n * unit_roundoff / (1 - n * unit_roundoff); }
+
+inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
+inline bool none(bool condition) { return !condition; }
+inline double least(double a, double b) { return b < a ? b : a; }
+inline double greatest(double a, double b) { return a < b ? b : a; }
+
+}  // namespace rayfarm

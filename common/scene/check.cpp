@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "common/scene/scene.h"
+
+namespace rayfarm {
+namespace {
+
+[[noreturn]] void fail(const std::string& place, const std::string& what) {
+  throw SceneError(place + ": " + what);
+}
+
+std::string text(double x) {
+  std::string s = std::to_string(x);
+  if (!std::isfinite(x) || s.find('.') == std::string::npos) return s;
+  s.erase(s.find_last_not_of('0') + 1);
+  if (s.back() == '.') s.pop_back();
+  return s;
+}
+
+void check_finite(const glm::dvec3& v, const std::string& place, std::string_view what) {
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(v[i])) fail(place, std::string(what) + " must be finite numbers, has " + text(v[i]));
+}
+
+/// Colours, intensities and weights: finite and not negative.
+void check_weight(double x, const std::string& place, std::string_view what) {
+  if (!(std::isfinite(x) && x >= 0))
+    fail(place, std::string(what) + " must be finite and not negative, is " + text(x));
+}
+void check_weight(const glm::dvec3& v, const std::string& place, std::string_view what) {
+  for (int i = 0; i < 3; ++i) check_weight(v[i], place, what);
+}
+void check_positive(double x, const std::string& place, std::string_view what) {
+  if (!(std::isfinite(x) && x > 0)) fail(place, std::string(what) + " must be positive, is " + text(x));
+}
+
+// The tree.
+// ----------------------------------------------------------------------------------------------------
+
+std::string_view name_of(CsgOp op) {
+  switch (op) {
+    case CsgOp::unite:
+      return "union";
+    case CsgOp::intersect:
+      return "intersection";
+    case CsgOp::subtract:
+      return "difference";
+    case CsgOp::exclusive_or:
+      return "xor";
+  }
+  return "unknown operation";
+}
+
+struct KindName {
+  std::string_view operator()(const Operation& o) const { return name_of(o.op); }
+  std::string_view operator()(const Solid& s) const { return std::visit(*this, s); }
+  std::string_view operator()(const Sphere&) const { return "sphere"; }
+  std::string_view operator()(const Cube&) const { return "cube"; }
+  std::string_view operator()(const Plane&) const { return "plane"; }
+  std::string_view operator()(const Cylinder&) const { return "cylinder"; }
+  std::string_view operator()(const Torus&) const { return "torus"; }
+};
+
+std::string place_of(const Scene& scene, std::size_t node) {
+  const Node& n = scene.nodes[node];
+  std::string place = "node " + std::to_string(node) + " (" + std::string(std::visit(KindName{}, n.content));
+  if (!n.name.empty()) place += " \"" + n.name + "\"";
+  return place + ")";
+}
+
+/// What is wrong with a solid's own numbers; empty when nothing is.
+struct SolidFault {
+  std::string operator()(const Sphere&) const { return {}; }
+  std::string operator()(const Cube&) const { return {}; }
+  std::string operator()(const Plane&) const { return {}; }
+  std::string operator()(const Cylinder& c) const {
+    if (c.z_min < c.z_max) return {};
+    return "z_min must be below z_max, but they are " + text(c.z_min) + " and " + text(c.z_max);
+  }
+  std::string operator()(const Torus& t) const {
+    if (!(std::isfinite(t.R) && t.R > 0)) return "R must be positive, is " + text(t.R);
+    if (!(std::isfinite(t.r) && t.r > 0)) return "r must be positive, is " + text(t.r);
+    return {};
+  }
+};
+
+/// What is wrong with a node, its place in the tree aside; empty when nothing is. The common case makes no
+/// text.
+std::string fault_of(const Scene& scene, const Node& node, const Affine& world_from_node) {
+  if (const auto* operation = std::get_if<Operation>(&node.content)) {
+    if (operation->op > CsgOp::exclusive_or)
+      return "the operation must be union, intersection, difference or xor";
+    if (operation->children == 0) return "an operation needs at least one child";
+  } else {
+    std::string fault = std::visit(SolidFault{}, std::get<Solid>(node.content));
+    if (!fault.empty()) return fault;
+  }
+  if (!is_invertible(node.parent_from_node))
+    return "its transform cannot be inverted: no scale may be 0, no number infinite or out of proportion";
+  if (!is_invertible(world_from_node))
+    return "its transform, with those above it, cannot be inverted: the whole flattens it or leaves the "
+           "range of numbers";
+  if (node.material && *node.material >= scene.materials.size())
+    return "material " + std::to_string(*node.material) + " does not exist, the scene has " +
+           std::to_string(scene.materials.size());
+  return {};
+}
+
+void check_surface(const Scene& scene, std::size_t index) {
+  const Node& node = scene.nodes[index];
+  if (!node.color && node.textures.empty()) return;
+  const std::string place = place_of(scene, index);
+  if (node.color) check_weight(*node.color, place, "color");
+  for (const Texture& texture : node.textures) {
+    const Checker& checker = std::get<Checker>(texture);
+    if (!std::isfinite(checker.fu) || !std::isfinite(checker.fv))
+      fail(place, "the checker's frequencies must be finite");
+    check_weight(checker.color, place, "the checker's color");
+  }
+}
+
+/// Walks the preorder with a stack of open operations, so that no depth can exhaust the program's own stack.
+void check_tree(const Scene& scene) {
+  if (scene.nodes.empty()) throw SceneError("scene: the tree is empty, give it at least one solid");
+  if (scene.nodes.size() > max_nodes)
+    throw SceneError("scene: " + std::to_string(scene.nodes.size()) + " nodes are too many, at most " +
+                     std::to_string(max_nodes) + " are allowed");
+  struct Open {
+    std::uint32_t children_left;
+    Affine world_from_node;
+  };
+  std::vector<Open> open{{1, Affine{}}};
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    while (!open.empty() && open.back().children_left == 0) open.pop_back();
+    if (open.empty()) fail(place_of(scene, i), "does not belong to the tree, which is complete before it");
+    --open.back().children_left;
+
+    const Affine world_from_node = open.back().world_from_node * scene.nodes[i].parent_from_node;
+    const std::string fault = fault_of(scene, scene.nodes[i], world_from_node);
+    if (!fault.empty()) fail(place_of(scene, i), fault);
+    check_surface(scene, i);
+
+    if (const auto* operation = std::get_if<Operation>(&scene.nodes[i].content)) {
+      if (open.size() >= max_tree_depth)
+        fail(place_of(scene, i),
+             "is nested too deep, at most " + std::to_string(max_tree_depth) + " levels are allowed");
+      open.push_back({operation->children, world_from_node});
+    }
+  }
+  for (const Open& o : open)
+    if (o.children_left != 0)
+      throw SceneError("scene: the tree does not close, the last operation lacks children");
+}
+
+// Materials, camera, lights.
+// -----------------------------------------------------------------------------------
+
+void check_material(const Material& m, const std::string& place) {
+  check_weight(m.color, place, "color");
+  check_weight(m.ambient, place, "ambient");
+  check_weight(m.diffuse, place, "diffuse");
+  check_weight(m.specular, place, "specular");
+  check_weight(m.transmission, place, "transmission");
+  check_weight(m.schlick, place, "schlick");
+  check_positive(m.index, place, "index");
+}
+
+/// Scaled to largest component 1, so that no length over- or underflows; zero stays zero.
+glm::dvec3 scaled(const glm::dvec3& v) {
+  const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  return largest == 0 ? v : v / largest;
+}
+
+void check_camera(const PerspectiveCamera& camera) {
+  const std::string place = "camera";
+  check_finite(camera.from, place, "from");
+  check_finite(camera.direction, place, "direction");
+  check_finite(camera.up, place, "up");
+  const glm::dvec3 d = scaled(camera.direction), up = scaled(camera.up), side = glm::cross(d, up);
+  if (d == glm::dvec3(0.0)) fail(place, "direction must not be zero");
+  if (up == glm::dvec3(0.0)) fail(place, "up must not be zero");
+  constexpr double least_sine = 1e-10;  // below, rounding decides where up is
+  if (glm::dot(side, side) <= least_sine * least_sine * glm::dot(d, d) * glm::dot(up, up))
+    fail(place, "direction must not be parallel to up, give another up such as {0, 0, 1}");
+  if (!(camera.angle_deg > 0 && camera.angle_deg < 180))
+    fail(place, "angle must be above 0 and below 180 degrees, is " + text(camera.angle_deg));
+}
+
+struct LightCheck {
+  const std::string& place;
+  void operator()(const AmbientLight& l) const { check_weight(l.intensity, place, "intensity"); }
+  void operator()(const PointLight& l) const {
+    check_finite(l.at, place, "at");
+    check_weight(l.intensity, place, "intensity");
+  }
+  void operator()(const RectangleLight& l) const {
+    check_finite(l.at, place, "at");
+    check_finite(l.width, place, "width");
+    check_finite(l.height, place, "height");
+    check_weight(l.intensity, place, "intensity");
+    check_weight(l.dim, place, "dim");
+    if (l.dim == glm::dvec3(0.0)) fail(place, "dim must not be all zeros, {1, 0, 0} means no dimming");
+  }
+};
+
+void check_animation(const Animation& a) {
+  const std::string place = "animation";
+  if (!std::isfinite(a.start) || !std::isfinite(a.stop)) fail(place, "start and stop must be finite");
+  if (a.stop < a.start)
+    fail(place, "stop must not be before start, but they are " + text(a.stop) + " and " + text(a.start));
+  check_positive(a.fps, place, "fps");
+}
+
+}  // namespace
+
+void check(const Scene& scene) {
+  check_tree(scene);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    check_material(scene.materials[i], "material " + std::to_string(i));
+  check_camera(std::get<PerspectiveCamera>(scene.camera));
+  check_weight(scene.background, "background", "color");
+
+  if (scene.lights.size() > max_lights)
+    throw SceneError("scene: " + std::to_string(scene.lights.size()) + " lights are too many, at most " +
+                     std::to_string(max_lights) + " are allowed");
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const std::string place = "light " + std::to_string(i);
+    std::visit(LightCheck{place}, scene.lights[i]);
+  }
+  for (const auto& [value, what] :
+       {std::pair{scene.image.width, "width"}, {scene.image.height, "height"}, {scene.image.spp, "spp"}})
+    if (value == 0u) fail("image", std::string(what) + " must be at least 1");
+  if (scene.animation) check_animation(*scene.animation);
+}
+
+}  // namespace rayfarm
