@@ -8,13 +8,13 @@
 //   master -> worker  JobStart      settings for a job of a scene already sent
 //   master -> worker  Assignment    render these passes of this tile
 //   worker -> master  Result        the passes, pixel for pixel, with their exact counters; ends the lease
-//   worker -> master  GiveBack      leases it will not finish (clean stop, or the job could not be started: why)
+//   worker -> master  GiveBack      leases it will not finish: clean stop, or it cannot render the job (why)
 //   master -> worker  Revoke        stop these leases now; nothing is answered for them
 //   master -> worker  JobEnd        forget the job, and its scene when no other job of it is left
 //   both              Heartbeat     each 0.5 s while nothing else is said; 2 s of silence end the connection
 //   both              Goodbye       a clean end, with the reason
-// A lease is good for exactly one Result. The master drops what comes for a lease it has revoked (after comparing
-// the pixels with those that another worker delivered).
+// A lease is good for exactly one Result. The master drops what comes for a lease it has revoked (after
+// comparing the pixels with those that another worker delivered).
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -82,7 +82,7 @@ struct Result {
 };
 struct GiveBack {
   std::vector<LeaseId> leases;
-  std::string reason;
+  std::string reason;  // why it cannot render the jobs of these leases; empty: it is stopping
   bool operator==(const GiveBack&) const = default;
 };
 struct Revoke {
@@ -101,7 +101,8 @@ struct Goodbye {
   bool operator==(const Goodbye&) const = default;
 };
 
-using ToWorker = std::variant<Welcome, Refused, SceneData, JobStart, Assignment, Revoke, JobEnd, Heartbeat, Goodbye>;
+using ToWorker =
+    std::variant<Welcome, Refused, SceneData, JobStart, Assignment, Revoke, JobEnd, Heartbeat, Goodbye>;
 using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye>;
 
 }  // namespace rayfarm
