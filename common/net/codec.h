@@ -1,7 +1,8 @@
 // Values as bytes and back: cereal's portable binary inside, zstd where it pays.
 //
 // decode(encode(x)) == x, bit for bit. Decoders take any bytes: what is too short, too long, out of range or
-// corrupt throws CodecError, and never allocates more than a small multiple of the bytes that really came.
+// corrupt throws CodecError. A length is never trusted: memory follows the bytes that really came (for a
+// scene, those that they decompress to, at most 1 GB; for a film, 48 kB a tile).
 #pragma once
 #include <cstdint>
 #include <span>
@@ -34,8 +35,11 @@ std::string sha256_hex(ByteView bytes);
 std::string base64(ByteView bytes);
 Bytes from_base64(std::string_view text);
 
-// Frames: 16 bytes (magic "RYFM", version u16, type u16, payload size u32, CRC-32 of the payload u32; little-endian),
-// then the payload. The type is the message's index in its variant.
+// Frames: 16 bytes (magic "RYFM", version u16, type u16, payload size u32, CRC-32 of the payload u32;
+// little-endian), then the payload. The type is the message's index in its variant. The version is that of
+// the header, Hello, Welcome, Refused and Goodbye, which stay, so that any two versions of the protocol can
+// tell each other what they are.
+constexpr std::uint16_t frame_version = 1;
 constexpr std::size_t frame_header_size = 16;
 
 struct FrameHeader {
@@ -49,6 +53,14 @@ FrameHeader decode_frame_header_to_master(std::span<const std::uint8_t, frame_he
 /// The payload of a frame; checks the checksum and that the message has sane values.
 ToWorker decode_to_worker(const FrameHeader& header, ByteView payload);
 ToMaster decode_to_master(const FrameHeader& header, ByteView payload);
+/// A frame in two parts: a scene's bytes are shared by all connections that send them. The tail may be null.
+struct Frame {
+  Bytes head;
+  SharedBytes tail;
+};
+/// Throws CodecError when the other side would not take the message (a text too long, a scene too large).
+Frame frame_of(const ToWorker& message);
+Frame frame_of(const ToMaster& message);
 /// A whole frame, header and payload.
 Bytes encode(const ToWorker& message);
 Bytes encode(const ToMaster& message);

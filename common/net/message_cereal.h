@@ -1,0 +1,122 @@
+// The fields of the messages, in the order in which they travel, and what makes their values sane.
+// SceneData's bytes and Result's pixels follow after the fields: see frames.cpp.
+#pragma once
+#include <cmath>
+
+#include "common/net/cereal_io.h"
+#include "common/net/messages.h"
+
+namespace rayfarm {
+
+constexpr std::size_t max_hash = 64;  // SHA-256 in hexadecimal
+
+template <class Archive>
+void hash_text(Archive& archive, std::string& value) {
+  text(archive, value, max_hash);
+  if (value.size() != max_hash || value.find_first_not_of("0123456789abcdef") != std::string::npos)
+    throw CodecError("a scene's hash must be 64 hexadecimal digits");
+}
+
+/// Protocol first: whatever else changes, the other side can read it and say what it expects.
+template <class Archive>
+void serialize(Archive& archive, Hello& m) {
+  archive(m.protocol);
+  text(archive, m.version, max_name);
+  text(archive, m.name, max_name);
+  text(archive, m.cpu, max_name);
+  archive(m.threads);
+}
+template <class Archive>
+void serialize(Archive& archive, Welcome& m) {
+  text(archive, m.name, max_name + 16);  // made unique by a number
+}
+template <class Archive>
+void serialize(Archive& archive, Refused& m) {
+  text(archive, m.reason, max_text);
+}
+template <class Archive>
+void serialize(Archive& archive, SceneData& m) {
+  hash_text(archive, m.hash);
+}
+template <class Archive>
+void serialize(Archive& archive, RenderSettings& s) {
+  archive(s.width, s.height, s.spp);
+  enumeration(archive, s.sampler, SamplerKind::random);
+  archive(s.seed, s.frame, s.max_depth, s.min_importance);
+  boolean(archive, s.shadows);
+  boolean(archive, s.reflections);
+  boolean(archive, s.refractions);
+  try {
+    check(s);
+  } catch (const SettingsError& error) {
+    throw CodecError(error.what());
+  }
+}
+template <class Archive>
+void serialize(Archive& archive, JobStart& m) {
+  archive(m.job);
+  hash_text(archive, m.scene_hash);
+  archive(m.settings);
+}
+template <class Archive>
+void serialize(Archive& archive, Assignment& m) {
+  archive(m.lease, m.job, m.tile, m.passes);
+  if (m.passes == 0 || m.passes > all_passes)
+    throw CodecError("an assignment names no pass, or one that does not exist");
+}
+template <class Archive>
+void serialize(Archive& archive, Revoke& m) {
+  archive(m.leases);
+}
+template <class Archive>
+void serialize(Archive& archive, GiveBack& m) {
+  archive(m.leases);
+  text(archive, m.reason, max_text);
+}
+template <class Archive>
+void serialize(Archive& archive, JobEnd& m) {
+  archive(m.job);
+}
+template <class Archive>
+void serialize(Archive& archive, Goodbye& m) {
+  text(archive, m.reason, max_text);
+}
+template <class Archive>
+void serialize(Archive& archive, RayCounters& c) {
+  archive(c.primary, c.reflected, c.refracted, c.shadow, c.primary_hits, c.secondary_hits, c.bad_samples);
+}
+
+/// A Result without its pixels, but with how many there are.
+struct ResultHead {
+  struct Image {
+    std::uint8_t pass = 0;
+    std::uint32_t floats = 0;
+    RayCounters counters;
+  };
+  LeaseId lease{};
+  JobId job{};
+  std::uint32_t tile = 0;
+  double seconds = 0;
+  std::vector<Image> images;
+};
+template <class Archive>
+void serialize(Archive& archive, ResultHead::Image& i) {
+  archive(i.pass, i.floats, i.counters);
+}
+template <class Archive>
+void serialize(Archive& archive, ResultHead& m) {
+  archive(m.lease, m.job, m.tile, m.seconds, m.images);
+  if (!std::isfinite(m.seconds) || m.seconds < 0) throw CodecError("a result took no time that can be");
+  std::size_t floats = 0;
+  int coarser = -1;
+  for (const ResultHead::Image& image : m.images) {
+    floats += image.floats;
+    if (image.pass >= pass_count || image.pass <= coarser || image.floats % 3 != 0 ||
+        floats > 3 * tile_side * tile_side)
+      throw CodecError("a result's passes cannot be those of a tile");
+    coarser = image.pass;
+  }
+  if (m.images.empty()) throw CodecError("a result brings no pass");
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,67 @@
+// The fields of a scene, in the order in which they travel.
+#pragma once
+#include "common/net/cereal_io.h"
+#include "common/scene/scene.h"
+
+namespace rayfarm {
+
+template <class Archive>
+void serialize(Archive& archive, Affine& a) {
+  archive(a.linear[0], a.linear[1], a.linear[2], a.offset);
+}
+template <class Archive>
+void serialize(Archive& archive, Cylinder& c) {
+  archive(c.z_min, c.z_max);
+}
+template <class Archive>
+void serialize(Archive& archive, Torus& t) {
+  archive(t.R, t.r);
+}
+template <class Archive>
+void serialize(Archive& archive, Material& m) {
+  archive(m.color, m.ambient, m.diffuse, m.specular, m.exponent, m.transmission, m.index, m.schlick);
+}
+template <class Archive>
+void serialize(Archive& archive, Checker& c) {
+  archive(c.fu, c.fv, c.color);
+}
+template <class Archive>
+void serialize(Archive& archive, Operation& o) {
+  enumeration(archive, o.op, CsgOp::exclusive_or);
+  archive(o.children);
+}
+template <class Archive>
+void serialize(Archive& archive, Node& n) {
+  archive(n.content, n.parent_from_node, n.material, n.color, n.textures);
+  text(archive, n.name, max_name);
+}
+template <class Archive>
+void serialize(Archive& archive, PerspectiveCamera& c) {
+  archive(c.from, c.direction, c.up, c.angle_deg);
+}
+template <class Archive>
+void serialize(Archive& archive, AmbientLight& l) {
+  archive(l.intensity);
+}
+template <class Archive>
+void serialize(Archive& archive, PointLight& l) {
+  archive(l.at, l.intensity);
+}
+template <class Archive>
+void serialize(Archive& archive, RectangleLight& l) {
+  archive(l.at, l.width, l.height, l.intensity, l.dim);
+}
+template <class Archive>
+void serialize(Archive& archive, ImageDefaults& i) {
+  archive(i.width, i.height, i.spp);
+}
+template <class Archive>
+void serialize(Archive& archive, Animation& a) {
+  archive(a.start, a.stop, a.fps);
+}
+template <class Archive>
+void serialize(Archive& archive, Scene& s) {
+  archive(s.nodes, s.materials, s.camera, s.background, s.lights, s.image, s.animation);
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,72 @@
+#include "tests/common/net/random_messages.h"
+
+#include <bit>
+
+#include "tests/support/random_scene.h"
+
+namespace rayfarm {
+namespace {
+
+std::string random_name(std::mt19937_64& random) { return "Müllers PC " + std::to_string(random() % 1000); }
+
+std::vector<LeaseId> random_leases(std::mt19937_64& random) {
+  std::vector<LeaseId> leases(random() % 20);
+  for (LeaseId& lease : leases) lease = LeaseId{random()};
+  return leases;
+}
+
+RenderSettings random_settings(std::mt19937_64& random) {
+  RenderSettings s;
+  s.width = 1 + random() % 2000, s.height = 1 + random() % 2000, s.spp = 16;
+  s.sampler = static_cast<SamplerKind>(random() % 4);
+  s.seed = random(), s.frame = random() % 100, s.max_depth = random() % 20;
+  s.shadows = random() % 2, s.reflections = random() % 2, s.refractions = random() % 2;
+  return s;
+}
+
+}  // namespace
+
+Scene named_scene(std::mt19937_64& random) {
+  Scene scene = random_scene(random());
+  for (Node& node : scene.nodes)
+    if (random() % 2) node.name = random_name(random);
+  if (random() % 2) scene.image = {random() % 1000 + 1, std::nullopt, 16};
+  if (random() % 2) scene.animation = Animation{0, 20, 25};
+  return scene;
+}
+
+PassImage random_pass(std::mt19937_64& random, int pass) {
+  PassImage image;
+  image.pass = pass;
+  image.rgb.resize(3 * pixel_count({0, 0, tile_side, tile_side}, pass));
+  for (float& value : image.rgb) value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+  image.counters = {random(), random(), random(), random(), random(), random(), random()};
+  return image;
+}
+
+std::vector<ToWorker> random_to_worker(std::mt19937_64& random) {
+  const Bytes scene = encode_scene(named_scene(random));
+  const std::string hash = sha256_hex(scene);
+  return {Welcome{random_name(random)},
+          Refused{"the name " + random_name(random) + " is banned"},
+          SceneData{hash, std::make_shared<const Bytes>(scene)},
+          JobStart{JobId{random()}, hash, random_settings(random)},
+          Assignment{LeaseId{random()}, JobId{random()}, static_cast<std::uint32_t>(random()),
+                     static_cast<PassSet>(1 + random() % 15)},
+          Revoke{random_leases(random)},
+          JobEnd{JobId{random()}},
+          Heartbeat{},
+          Goodbye{"the master stops"}};
+}
+
+std::vector<ToMaster> random_to_master(std::mt19937_64& random) {
+  Result result{LeaseId{random()}, JobId{random()}, static_cast<std::uint32_t>(random()), {}, 0.25};
+  for (int pass = 0; pass < pass_count; ++pass)
+    if (pass == 3 || random() % 2) result.images.push_back(random_pass(random, pass));
+  return {
+      Hello{protocol_version, "0.1.0", random_name(random), "Some CPU", static_cast<std::uint32_t>(random())},
+      std::move(result), GiveBack{random_leases(random), "it stops"}, Heartbeat{},
+      Goodbye{"the worker stops"}};
+}
+
+}  // namespace rayfarm
