@@ -20,18 +20,21 @@ struct FileError : std::runtime_error {
 
 struct Picture {
   Size size;
-  std::vector<float> rgb;                     // row-major, linear Rec. 709
-  std::map<std::string, std::string> facts;   // "rayfarm:seed" -> "0" ..., into the header
+  std::vector<float> rgb;                    // row-major, linear Rec. 709
+  std::map<std::string, std::string> facts;  // "rayfarm:seed" -> "0" ..., into the header
 };
 
 enum class PngCurve : std::uint8_t { gamma22, srgb };
 
 /// Throws FileError unless the name ends in .exr or .png and a file can be made there. Changes nothing.
 void check_writable(const std::filesystem::path& file);
-void write_picture(const std::filesystem::path& file, const Picture& picture, PngCurve curve = PngCurve::gamma22);
+void write_picture(const std::filesystem::path& file, const Picture& picture,
+                   PngCurve curve = PngCurve::gamma22);
 /// PNG bytes, for the web page.
 std::vector<std::uint8_t> png_bytes(const Picture& picture, PngCurve curve = PngCurve::gamma22);
 /// EXR as stored; PNG values 0..1 as stored (not linearised).
 Picture read_picture(const std::filesystem::path& file);
+/// As read_picture, with a PNG's curve undone: ours as its header says, others as sRGB.
+Picture read_linear(const std::filesystem::path& file);
 
 }  // namespace rayfarm
