@@ -1,0 +1,221 @@
+#include "tests/reference/reference_spans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tests/reference/reference_torus.h"
+
+namespace rayfarm::reference {
+namespace {
+
+constexpr Real infinity = std::numeric_limits<Real>::infinity();
+
+// Two surfaces at most this part of their coordinates apart are one: the scene's numbers are doubles, so
+// coincident faces that come through different transforms differ by some 1e-16.
+constexpr Real coincidence = 1e-13L;
+
+// A convex solid's part of the line, cut down by one boundary after the other.
+struct Chord {
+  Real enter = -infinity, leave = infinity;
+  Vec enter_gradient{0}, leave_gradient{0};
+
+  void clip(Real t0, const Vec& g0, Real t1, const Vec& g1) {
+    if (t0 > enter) enter = t0, enter_gradient = g0;
+    if (t1 < leave) leave = t1, leave_gradient = g1;
+  }
+  void clip_all() { enter = infinity, leave = -infinity; }
+};
+
+// Keeps what has dot(gradient, p) < limit.
+void clip_half_space(Chord& chord, const Ray& ray, const Vec& gradient, Real limit) {
+  if (std::isinf(limit)) return;
+  const Real excess = glm::dot(gradient, ray.origin) - limit, slope = glm::dot(gradient, ray.direction);
+  if (slope > 0) chord.clip(-infinity, gradient, -excess / slope, gradient);
+  if (slope < 0) chord.clip(-excess / slope, gradient, infinity, gradient);
+  if (slope == 0 && excess >= 0) chord.clip_all();
+}
+
+// Keeps what is nearer than 1 to the origin, the components that `axes` makes zero not counted.
+void clip_unit_ball(Chord& chord, const Ray& ray, const Vec& axes) {
+  const Vec o = ray.origin * axes, d = ray.direction * axes;
+  const Real dd = glm::dot(d, d);
+  if (dd == 0) {
+    if (glm::dot(o, o) >= 1) chord.clip_all();
+    return;
+  }
+  const Real t_closest = -glm::dot(o, d) / dd;
+  const Vec closest = o + t_closest * d;
+  const Real rest = 1 - glm::dot(closest, closest);
+  if (rest <= 0) return chord.clip_all();
+  const Real half = std::sqrt(rest / dd);
+  chord.clip(t_closest - half, closest - half * d, t_closest + half, closest + half * d);
+}
+
+Chord chord_of(const Sphere&, const Ray& ray) {
+  Chord chord;
+  clip_unit_ball(chord, ray, Vec(1, 1, 1));
+  return chord;
+}
+
+Chord chord_of(const Cube&, const Ray& ray) {
+  Chord chord;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec out(0);
+    out[axis] = 1;
+    clip_half_space(chord, ray, -out, 0);
+    clip_half_space(chord, ray, out, 1);
+  }
+  return chord;
+}
+
+Chord chord_of(const Plane&, const Ray& ray) {
+  Chord chord;
+  clip_half_space(chord, ray, Vec(0, 0, 1), 0);
+  return chord;
+}
+
+Chord chord_of(const Cylinder& cylinder, const Ray& ray) {
+  Chord chord;
+  clip_unit_ball(chord, ray, Vec(1, 1, 0));
+  clip_half_space(chord, ray, Vec(0, 0, -1), -Real(cylinder.z_min));
+  clip_half_space(chord, ray, Vec(0, 0, 1), cylinder.z_max);
+  return chord;
+}
+
+Spans spans_of_chord(const Chord& chord) {
+  Spans spans;
+  if (!(chord.enter < chord.leave)) return spans;
+  spans.starts_inside = chord.enter == -infinity;
+  if (!spans.starts_inside) spans.crossings.push_back({.t = chord.enter, .gradient = chord.enter_gradient});
+  if (chord.leave != infinity)
+    spans.crossings.push_back({.t = chord.leave, .gradient = chord.leave_gradient});
+  return spans;
+}
+
+Real size_of(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+Spans spans_of_leaf(const Leaf& leaf, int number, const Ray& ray) {
+  const Ray local{leaf.local_from_world * (ray.origin - leaf.offset), leaf.local_from_world * ray.direction};
+  Spans spans = spans_of(leaf.solid, local);
+  bool inside = spans.starts_inside;
+  for (Crossing& c : spans.crossings) {
+    const Vec p = local.origin + c.t * local.direction;
+    c.leaf = number;
+    c.entering = inside = !inside;
+    c.normal = glm::normalize(glm::transpose(leaf.local_from_world) * c.gradient);
+    c.size = size_of(ray.origin) + size_of(leaf.offset);
+    for (int axis = 0; axis < 3; ++axis) c.size += size_of(leaf.world_from_local[axis] * p[axis]);
+  }
+  return spans;
+}
+
+Real speed_across(const Crossing& c, const Ray& ray) { return std::abs(glm::dot(c.normal, ray.direction)); }
+
+bool coincide(const Crossing& a, const Crossing& b, const Ray& ray) {
+  const Real apart = std::abs(a.t - b.t) * std::min(speed_across(a, ray), speed_across(b, ray));
+  return a.t == b.t || apart <= coincidence * std::max(a.size, b.size);
+}
+
+bool holds(CsgOp op, bool left, bool right) {
+  switch (op) {
+    case CsgOp::unite:
+      return left || right;
+    case CsgOp::intersect:
+      return left && right;
+    case CsgOp::subtract:
+      return left && !right;
+    case CsgOp::exclusive_or:
+      return left != right;
+  }
+  std::abort();
+}
+
+// Walks both lists in the order of t. At equal t both sides flip and the left crossing is the one kept.
+Spans combine(CsgOp op, const Spans& left, const Spans& right, const Ray& ray) {
+  bool in_left = left.starts_inside, in_right = right.starts_inside, inside = holds(op, in_left, in_right);
+  Spans result{inside, {}};
+  auto l = left.crossings.begin(), r = right.crossings.begin();
+  while (l != left.crossings.end() || r != right.crossings.end()) {
+    bool take_left = l != left.crossings.end(), take_right = r != right.crossings.end();
+    if (take_left && take_right && !coincide(*l, *r, ray)) (l->t < r->t ? take_right : take_left) = false;
+    const Crossing& kept = take_left ? *l : *r;
+    if (take_left) in_left = !in_left, ++l;
+    if (take_right) in_right = !in_right, ++r;
+    if (holds(op, in_left, in_right) == inside) continue;
+    inside = !inside;
+    result.crossings.push_back(kept);
+    result.crossings.back().entering = inside;
+  }
+  return result;
+}
+
+// Reads one subtree in preorder; `node` and `leaf` move behind it.
+Spans spans_of_subtree(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray, std::size_t& node,
+                       int& leaf) {
+  const auto* operation = std::get_if<Operation>(&scene.nodes[node++].content);
+  if (operation == nullptr) {
+    const int number = leaf++;
+    return spans_of_leaf(leaves[number], number, ray);
+  }
+  Spans result;
+  for (std::uint32_t child = 0; child < operation->children; ++child) {
+    Spans next = spans_of_subtree(scene, leaves, ray, node, leaf);
+    if (child == 0) {
+      result = std::move(next);
+    } else if (next.starts_inside || !next.crossings.empty() || operation->op == CsgOp::intersect) {
+      result = combine(operation->op, result, next, ray);
+    }
+  }
+  return result;
+}
+
+void collect_leaves(const Scene& scene, Leaf inherited, std::size_t& index, std::vector<Leaf>& leaves) {
+  const Node& node = scene.nodes[index++];
+  const Mat linear(node.parent_from_node.linear);
+  inherited.offset += inherited.world_from_local * Vec(node.parent_from_node.offset);
+  inherited.world_from_local = inherited.world_from_local * linear;
+  if (node.material) inherited.material = scene.materials.at(*node.material);
+  if (node.color) inherited.color = node.color;
+  inherited.textures.insert(inherited.textures.end(), node.textures.begin(), node.textures.end());
+  if (const auto* operation = std::get_if<Operation>(&node.content)) {
+    for (std::uint32_t child = 0; child < operation->children; ++child)
+      collect_leaves(scene, inherited, index, leaves);
+    return;
+  }
+  inherited.solid = std::get<Solid>(node.content);
+  inherited.local_from_world = glm::inverse(inherited.world_from_local);
+  leaves.push_back(std::move(inherited));
+}
+
+}  // namespace
+
+std::vector<Leaf> leaves_of(const Scene& scene) {
+  std::vector<Leaf> leaves;
+  std::size_t index = 0;
+  collect_leaves(scene, Leaf{}, index, leaves);
+  return leaves;
+}
+
+Spans spans_of(const Solid& solid, const Ray& local) {
+  return std::visit(
+      [&](const auto& s) {
+        if constexpr (std::is_same_v<decltype(s), const Torus&>)
+          return spans_of_torus(s, local);
+        else
+          return spans_of_chord(chord_of(s, local));
+      },
+      solid);
+}
+
+Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray) {
+  std::size_t node = 0;
+  int leaf = 0;
+  return spans_of_subtree(scene, leaves, ray, node, leaf);
+}
+
+Real depth_across(const Crossing& crossing, const Ray& ray) {
+  return crossing.t * speed_across(crossing, ray);
+}
+
+}  // namespace rayfarm::reference

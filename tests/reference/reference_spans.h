@@ -1,0 +1,61 @@
+// Where a line is inside the scene, computed as literally as the original describes it: every solid's
+// crossings over the whole line, merged operator by operator from left to right. Slow, plain, in extended
+// precision; it shares nothing with the core but the Scene value, so that the two can be held against each
+// other.
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+namespace rayfarm::reference {
+
+using Real = long double;
+using Vec = glm::vec<3, Real, glm::defaultp>;
+using Mat = glm::mat<3, 3, Real, glm::defaultp>;
+
+/// A leaf of the tree with all that it inherits.
+struct Leaf {
+  Solid solid;
+  Mat world_from_local{1};
+  Mat local_from_world{1};  // of directions; points are taken relative to `offset` first
+  Vec offset{0};
+  std::optional<glm::dvec3> color;
+  Material material;
+  std::vector<Texture> textures;  // ancestors' first
+};
+
+struct Ray {
+  Vec origin{0}, direction{0};
+};
+
+struct Crossing {
+  Real t = 0;
+  int leaf = 0;           // preorder number among the leaves
+  bool entering = false;  // the state behind it: inside the result of the operators so far
+  Vec gradient{0};        // local, points out of the solid
+  Vec normal{0};          // world, unit, points out of the solid
+  Real size = 0;          // of the coordinates it was made from
+};
+
+/// The line is inside from t = -infinity (or not), and changes sides at each crossing.
+struct Spans {
+  bool starts_inside = false;
+  std::vector<Crossing> crossings;  // ascending t
+};
+
+/// The leaves in preorder.
+std::vector<Leaf> leaves_of(const Scene& scene);
+
+/// The spans of one solid in its local space; t is that of the ray given. Only t and gradient are set.
+Spans spans_of(const Solid& solid, const Ray& local);
+
+/// The spans of the whole tree. Surfaces nearer to each other than rounding of the scene's own numbers count
+/// as one.
+Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray);
+
+/// How far the crossing lies in front of the ray's origin, measured across its surface.
+Real depth_across(const Crossing& crossing, const Ray& ray);
+
+}  // namespace rayfarm::reference

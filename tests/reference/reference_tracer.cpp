@@ -1,0 +1,234 @@
+#include "tests/reference/reference_tracer.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace rayfarm {
+namespace reference {
+namespace {
+
+constexpr Real pi = std::numbers::pi_v<Real>;
+
+// A secondary ray does not meet the surfaces that lie this part of their coordinates in front of its start.
+constexpr Real left_behind = 1e-12L;
+
+struct Tracer {
+  const Scene& scene;
+  const std::vector<Leaf>& leaves;
+  const ReferenceSettings& settings;
+};
+
+struct Surface {
+  Vec point{0}, normal{0}, color{0};
+  Material material;
+};
+
+Vec unit(const Vec& v) { return v / std::sqrt(glm::dot(v, v)); }
+
+// Meeting the scene.
+// -------------------------------------------------------------------------------------------
+
+Ray camera_ray(const PerspectiveCamera& camera, const ReferenceSettings& film, Real x, Real y) {
+  const Vec d = unit(Vec(camera.direction)), left = unit(glm::cross(d, Vec(camera.up)));
+  const Vec top = unit(glm::cross(left, d));
+  const Real half_width = std::tan(camera.angle_deg * pi / 360),
+             half_height = half_width * film.height / film.width;
+  return {Vec(camera.from), unit(d + top * (half_height - 2 * half_height * y / film.height) +
+                                 left * (half_width - 2 * half_width * x / film.width))};
+}
+
+std::optional<Crossing> first_crossing(const Spans& spans, const Ray& ray, bool leaves_a_surface) {
+  for (const Crossing& c : spans.crossings)
+    if (c.t > 0 && (!leaves_a_surface || depth_across(c, ray) > left_behind * c.size)) return c;
+  return std::nullopt;
+}
+
+// The crossing's own normal says which way the solid was passed; the operators may have turned that round.
+Vec normal_of(const Crossing& c, const Ray& ray) {
+  const bool front = glm::dot(c.normal, ray.direction) < 0;
+  return c.entering == front ? c.normal : -c.normal;
+}
+
+// Texture coordinates.
+// -----------------------------------------------------------------------------------------
+
+using Uv = glm::vec<2, Real, glm::defaultp>;
+
+Real turn(Real y, Real x) { return std::atan2(y, x) / (2 * pi) + 0.5L; }
+
+Uv uv_of(const Sphere&, const Vec& p, const Vec&) {
+  const Real s = std::hypot(p.x, p.y);
+  return {s == 0 ? 0 : turn(p.y, p.x), std::atan2(s, p.z) / pi};
+}
+Uv uv_of(const Cube&, const Vec& p, const Vec& gradient) {
+  if (gradient.x != 0) return {p.y, p.z};
+  return gradient.y != 0 ? Uv(p.x, p.z) : Uv(p.x, p.y);
+}
+Uv uv_of(const Plane&, const Vec& p, const Vec&) { return {p.x, p.y}; }
+Uv uv_of(const Cylinder&, const Vec& p, const Vec& gradient) {
+  return {gradient.z != 0 ? 0 : turn(p.y, p.x), p.z};
+}
+Uv uv_of(const Torus& torus, const Vec& p, const Vec&) {
+  const Real R = torus.R, rho = std::hypot(p.x, p.y), to_near = rho - R, to_far = -(rho + R);
+  const auto off_tube = [&](Real s) { return std::abs(s * s + p.z * p.z - Real(torus.r) * torus.r); };
+  const Real s = off_tube(to_near) <= off_tube(to_far) ? to_near : to_far;
+  return {turn(p.y, p.x), turn(s, p.z)};
+}
+
+Vec textured(const Texture& texture, const Uv& uv, const Vec& color) {
+  const auto& checker = std::get<Checker>(texture);
+  const Real cell = std::floor(uv.x * checker.fu) + std::floor(uv.y * checker.fv);
+  return std::fmod(cell, Real(2)) == 0 ? color : Vec(checker.color);
+}
+
+Surface surface_of(const Leaf& leaf, const Crossing& c, const Ray& ray) {
+  Surface surface{ray.origin + c.t * ray.direction, normal_of(c, ray),
+                  Vec(leaf.color.value_or(leaf.material.color)), leaf.material};
+  const Vec local = leaf.local_from_world * (surface.point - leaf.offset);
+  const Uv uv = std::visit([&](const auto& solid) { return uv_of(solid, local, c.gradient); }, leaf.solid);
+  for (const Texture& texture : leaf.textures) surface.color = textured(texture, uv, surface.color);
+  return surface;
+}
+
+// Light.
+// -------------------------------------------------------------------------------------------------------
+
+Vec mirrored(const Vec& v, const Vec& n) { return 2 * glm::dot(n, v) * n - v; }
+
+// Both v and the result point away from the surface; none when all light is reflected.
+std::optional<Vec> refracted(const Vec& v, Vec n, Real index) {
+  Real d = glm::dot(n, v), ratio = 1 / index;
+  if (d < 0) n = -n, d = -d, ratio = index;
+  const Real c2 = 1 - ratio * ratio * (1 - d * d);
+  if (c2 <= 0) return std::nullopt;
+  return (ratio * d - std::sqrt(c2)) * n - ratio * v;
+}
+
+struct Weights {
+  Real diffuse = 0, specular = 0, transmission = 0;
+};
+
+// Schlick's factor moves weight to the mirror at grazing angles; a is the cosine on the light's side.
+Weights weights_of(const Material& m, Real a) {
+  const Real w = m.schlick * std::pow(1 - std::abs(a), Real(5));
+  return {m.diffuse * (1 - w), m.specular + w * (Real(m.diffuse) + m.transmission), m.transmission * (1 - w)};
+}
+
+// Inside, beyond the angle of total reflection, the mirror gets what would have passed.
+void add_total_reflection(Weights& k, const Material& m, Real a) {
+  const Real n = m.index, cos_total = n > 1 ? std::sqrt(n * n - 1) / n : 0;
+  if (a > 0 || -a > cos_total) return;
+  k.specular += k.transmission;
+  if (k.specular + k.diffuse > 1) k.specular = 1 - k.diffuse;
+}
+
+// What comes from direction l (unit) and leaves in direction v.
+Vec phong(const Surface& s, const Vec& l, const Vec& v) {
+  const Real a = glm::dot(l, s.normal);
+  Weights k = weights_of(s.material, a);
+  std::optional<Vec> main;
+  Real passed = 1;
+  if ((a > 0) == (glm::dot(v, s.normal) > 0)) {
+    main = mirrored(l, s.normal);
+    add_total_reflection(k, s.material, a);
+  } else {
+    main = refracted(l, s.normal, s.material.index);
+    passed = k.transmission;
+  }
+  const Real cos_beta = main ? glm::dot(*main, v) : 0;
+  const Real highlight = cos_beta > 0 ? k.specular * std::pow(cos_beta, Real(s.material.exponent)) : 0;
+  return passed * (k.diffuse * std::abs(a) * s.color + highlight);
+}
+
+bool is_blocked(const Tracer& tracer, const Ray& to_light) {
+  const Spans spans = spans_of(tracer.scene, tracer.leaves, to_light);
+  const auto blocker = first_crossing(spans, to_light, true);
+  return blocker && blocker->t < 1;
+}
+
+Vec from_point(const Tracer& tracer, const Surface& s, const Vec& v, const Vec& at, const Vec& intensity) {
+  const Ray to_light{s.point, at - s.point};
+  if (glm::dot(to_light.direction, s.normal) <= 0) return Vec(0);
+  if (tracer.settings.shadows && is_blocked(tracer, to_light)) return Vec(0);
+  return intensity * phong(s, unit(to_light.direction), v);
+}
+
+Vec light_from(const Tracer&, const AmbientLight& light, const Surface& s, const Vec& v) {
+  const Real inside = glm::dot(v, s.normal) > 0 ? 1 : s.material.transmission;
+  return Vec(light.intensity) * s.color * Real(s.material.ambient) * inside;
+}
+Vec light_from(const Tracer& tracer, const PointLight& light, const Surface& s, const Vec& v) {
+  return from_point(tracer, s, v, Vec(light.at), Vec(light.intensity));
+}
+Vec light_from(const Tracer& tracer, const RectangleLight& light, const Surface& s, const Vec& v) {
+  const Vec at = Vec(light.at) + Real(tracer.settings.light_uv.x) * Vec(light.width) +
+                 Real(tracer.settings.light_uv.y) * Vec(light.height);
+  const Real distance = std::sqrt(glm::dot(at - s.point, at - s.point));
+  const Real dimming = light.dim[0] + light.dim[1] * distance + light.dim[2] * distance * distance;
+  return from_point(tracer, s, v, at, Vec(light.intensity) / dimming);
+}
+
+Vec direct_light(const Tracer& tracer, const Surface& s, const Vec& v) {
+  if (tracer.scene.lights.empty()) return s.color;
+  Vec sum(0);
+  for (const Light& light : tracer.scene.lights)
+    sum += std::visit([&](const auto& l) { return light_from(tracer, l, s, v); }, light);
+  return sum;
+}
+
+// Recursion.
+// ---------------------------------------------------------------------------------------------------
+
+Vec radiance(const Tracer& tracer, const Ray& ray, int depth, Real importance);
+
+Vec shade(const Tracer& tracer, const Surface& s, const Vec& v, int depth, Real importance) {
+  const ReferenceSettings& settings = tracer.settings;
+  Vec color = direct_light(tracer, s, v);
+  if (depth >= settings.max_depth) return color;
+
+  const Real a = glm::dot(v, s.normal);
+  Weights k = weights_of(s.material, a);
+  add_total_reflection(k, s.material, a);
+  if (settings.reflections && importance * k.specular >= settings.min_importance) {
+    const Ray reflected{s.point, mirrored(v, s.normal)};
+    color += k.specular * radiance(tracer, reflected, depth + 1, importance * k.specular);
+  }
+
+  const Real kt = s.material.transmission;
+  if (!settings.refractions || importance * kt < settings.min_importance) return color;
+  if (const auto through = refracted(v, s.normal, s.material.index))
+    color += kt * radiance(tracer, {s.point, *through}, depth + 1, importance * kt);
+  return color;
+}
+
+Vec radiance(const Tracer& tracer, const Ray& ray, int depth, Real importance) {
+  const auto hit = first_crossing(spans_of(tracer.scene, tracer.leaves, ray), ray, depth > 0);
+  if (!hit) return Vec(tracer.scene.background);
+  return shade(tracer, surface_of(tracer.leaves[hit->leaf], *hit, ray), -unit(ray.direction), depth,
+               importance);
+}
+
+std::optional<ReferenceHit> hit_of(const Spans& spans, const Ray& ray) {
+  const auto c = first_crossing(spans, ray, false);
+  if (!c) return std::nullopt;
+  return ReferenceHit{static_cast<double>(c->t), glm::dvec3(ray.origin + c->t * ray.direction),
+                      glm::dvec3(normal_of(*c, ray)), c->leaf};
+}
+
+}  // namespace
+}  // namespace reference
+
+ReferenceSample ReferenceTracer::sample(const ReferenceSettings& settings, double x, double y) const {
+  using namespace reference;
+  const Tracer tracer{scene_, leaves_, settings};
+  const Ray ray = camera_ray(std::get<PerspectiveCamera>(scene_.camera), settings, x, y);
+  return {hit_of(spans_of(scene_, leaves_, ray), ray), glm::dvec3(radiance(tracer, ray, 0, 1))};
+}
+
+std::optional<ReferenceHit> ReferenceTracer::first_hit(const glm::dvec3& origin,
+                                                       const glm::dvec3& direction) const {
+  const reference::Ray ray{reference::Vec(origin), reference::Vec(direction)};
+  return reference::hit_of(reference::spans_of(scene_, leaves_, ray), ray);
+}
+
+}  // namespace rayfarm
