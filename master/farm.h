@@ -1,18 +1,19 @@
 // The farm: jobs, workers, leases. It decides who renders what, without I/O: no socket, no clock, no file.
-// Time is passed in; messages leave through the function that a worker was added with; what an admin should know
-// comes out of take_events(). All calls are made from one thread.
+// Time is passed in; messages leave through the function that a worker was added with; what an admin should
+// know comes out of take_events(). All calls are made from one thread.
 //
-// Invariants: each (job, tile, pass) is waiting, leased to exactly one worker, or done; it is committed exactly once,
-// under a live lease. A pass that comes again is compared with what was committed, never written.
+// Invariants: each (job, tile, pass) is waiting, leased to exactly one worker, or done; it is committed
+// exactly once, under a live lease. A pass that comes again is compared with what was committed, never
+// written.
 //
-// Who gets what: of the jobs that have work waiting the one of highest priority, then the one submitted first; of its
-// tiles those given back, then the one nearest the centre. A worker holds a lease for each thread and two more, and
-// beyond that as many as keep it busy for 250 ms by its learned speed.
+// Who gets what: of the jobs that have work waiting the one of highest priority, then the one submitted
+// first; of its tiles those given back, then the one nearest the centre. A worker holds a lease for each
+// thread and two more, and beyond that as many as keep it busy for 250 ms by its learned speed.
 //
-// Memory: a job costs what its scene costs until its first assignment, then 12 bytes a pixel for the film (3.7 MB for
-// 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. Ended jobs keep their film: it is fetched later.
+// Memory: a job costs what its scene costs until its first assignment, then 12 bytes a pixel for the film
+// (3.7 MB for 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. Ended jobs keep their film: it is
+// fetched later.
 #pragma once
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,11 +24,9 @@
 
 #include "common/net/messages.h"
 #include "common/render/film.h"
+#include "master/farm_time.h"
 
 namespace rayfarm {
-
-/// The farm's time: since any fixed instant, never going back.
-using FarmTime = std::chrono::nanoseconds;
 
 enum class WorkerId : std::uint64_t {};
 
@@ -46,27 +45,27 @@ std::string_view name_of(JobState state);
 
 struct JobSpec {
   std::string name;
-  std::string output;          // fetch's default file, on the submitter's PC
+  std::string output;  // fetch's default file, on the submitter's PC
   std::string scene_hash;
-  SharedBytes scene_bytes;     // encode_scene()
+  SharedBytes scene_bytes;  // encode_scene()
   RenderSettings settings;
-  int priority = 50;           // 0..99, higher first; equals in order of submission
-  bool hold = false;           // starts paused
-  std::string key;             // submit --id: the same key gives the same job again; empty: none
+  int priority = 50;  // 0..99, higher first; equals in order of submission
+  bool hold = false;  // starts paused
+  std::string key;    // submit --id: the same key gives the same job again; empty: none
 };
 
 /// A job as people see it.
 struct JobView {
   JobId id{};
-  std::string name, output, scene_hash, message;   // message: why it failed, or why a worker gave it back
+  std::string name, output, scene_hash, message;  // message: why it failed, or why a worker gave it back
   JobState state = JobState::waiting;
   int priority = 0;
   RenderSettings settings;
   std::uint64_t pixels_done = 0, pixels_total = 0;
-  RayCounters counters;                   // of committed passes
-  FarmTime submitted{}, elapsed{};        // elapsed: wall time since the first assignment, until it ended
-  std::optional<FarmTime> eta;            // remaining; none before there is something to learn from
-  std::uint64_t tiles_given_back = 0;     // leases that ended without a result
+  RayCounters counters;                // of committed passes
+  FarmTime submitted{}, elapsed{};     // elapsed: wall time since the first assignment, until it ended
+  std::optional<FarmTime> eta;         // remaining; none before there is something to learn from
+  std::uint64_t tiles_given_back = 0;  // leases that ended without a result
 };
 
 enum class WorkerState : std::uint8_t { idle, busy, drained };
@@ -76,9 +75,10 @@ struct WorkerView {
   WorkerId id{};
   WorkerInfo info;
   WorkerState state = WorkerState::idle;
-  std::uint32_t leases = 0;               // held now
-  std::uint64_t tiles = 0, pixels = 0;    // delivered; each pass of a tile that a local thread did counts as one
-  double samples_per_second = 0;          // learned, all its threads; 0: not known yet
+  std::uint32_t leases = 0;  // held now
+  std::uint64_t tiles = 0,
+                pixels = 0;       // delivered; each pass of a tile that a local thread did counts as one
+  double samples_per_second = 0;  // learned, all its threads; 0: not known yet
   FarmTime joined{};
 };
 
@@ -88,8 +88,8 @@ struct FarmEvent {
   std::string text;
 };
 
-/// A worker broke the rules of the conversation; the message says how. End its connection and pass the message to
-/// remove_worker as the reason. The lease concerned has ended already, nothing was committed.
+/// A worker broke the rules of the conversation; the message says how. End its connection and pass the
+/// message to remove_worker as the reason. The lease concerned has ended already, nothing was committed.
 struct WorkerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -102,17 +102,17 @@ class Farm {
   Farm();
   ~Farm();
 
-  /// Sends Welcome with the worker's name (made unique: the second "pc" is "pc-2"; a name is free again when its
-  /// worker is removed), then work. A drained name stays drained until undrain().
+  /// Sends Welcome with the worker's name (made unique: the second "pc" is "pc-2"; a name is free again when
+  /// its worker is removed), then work. A drained name stays drained until undrain().
   WorkerId add_worker(WorkerInfo info, Send send, FarmTime now);
   /// Its leases go to the others, first of all. The reason is for people.
   void remove_worker(WorkerId worker, std::string reason, FarmTime now);
-  /// Throws WorkerError if the result is not what its lease asked for. A result that comes after its lease was
-  /// revoked is compared with what others delivered: a difference is a warning that names both.
+  /// Throws WorkerError if the result is not what its lease asked for. A result that comes after its lease
+  /// was revoked is compared with what others delivered: a difference is a warning that names both.
   void receive(WorkerId worker, Result result, FarmTime now);
-  /// With a reason: the worker cannot render the jobs of these leases, and is not offered them again; a job that
-  /// every worker gave back so before anything of it was done has failed. Without one: the worker is stopping and
-  /// gets nothing more; what it still holds it may finish.
+  /// With a reason: the worker cannot render the jobs of these leases, and is not offered them again; a job
+  /// that every worker gave back so before anything of it was done has failed. Without one: the worker is
+  /// stopping and gets nothing more; what it still holds it may finish.
   void receive(WorkerId worker, GiveBack given, FarmTime now);
 
   /// Throws SettingsError for settings that cannot be rendered.
@@ -122,16 +122,17 @@ class Farm {
   bool resume(JobId job, FarmTime now);
   bool cancel(JobId job, FarmTime now);
   bool set_priority(JobId job, int priority, FarmTime now);
-  // By the worker's unique name. Draining revokes what it holds at once and gives it nothing more. False: no such
-  // worker; undrain also knows drained workers that are away.
+  // By the worker's unique name. Draining revokes what it holds at once and gives it nothing more. False: no
+  // such worker; undrain also knows drained workers that are away.
   bool drain(std::string_view name, FarmTime now);
   bool undrain(std::string_view name, FarmTime now);
 
-  std::vector<JobView> jobs(FarmTime now) const;                     // in order of submission
+  std::vector<JobView> jobs(FarmTime now) const;  // in order of submission
   std::optional<JobView> job(JobId id, FarmTime now) const;
-  std::vector<WorkerView> workers() const;                           // in order of joining
-  std::string name_of_worker(WorkerId id) const;                     // empty: not here
-  /// The film of a job; null when there is no such job or nothing of it was assigned yet. Grows while the job runs.
+  std::vector<WorkerView> workers() const;        // in order of joining
+  std::string name_of_worker(WorkerId id) const;  // empty: not here
+  /// The film of a job; null when there is no such job or nothing of it was assigned yet. Grows while the job
+  /// runs.
   std::shared_ptr<const Film> film(JobId id) const;
   /// Grows with every change of a job: to wait for news.
   std::uint64_t revision() const;

@@ -1,0 +1,117 @@
+// Who gets what: giving work out and taking it back.
+#include <algorithm>
+#include <new>
+
+#include "master/farm_state.h"
+
+namespace rayfarm {
+namespace {
+
+std::uint64_t samples_in(const Work& work, const RenderSettings& settings) {
+  const Tile tile = tile_at(size_of(settings), work.tile);
+  std::uint64_t pixels = 0;
+  for (int pass = 0; pass < pass_count; ++pass)
+    if (work.passes & 1u << pass) pixels += pixel_count(tile, pass);
+  return pixels * settings.spp;
+}
+
+}  // namespace
+
+void Farm::State::update_queue(const Job& job) {
+  const std::pair place{-job.spec.priority, job.id};
+  if (wants_workers(job))
+    queue.insert(place);
+  else
+    queue.erase(place);
+}
+
+Job* Farm::State::next_job_for(const Worker& worker) {
+  if (!may_work(worker)) return nullptr;
+  const auto place = std::ranges::find_if(queue, [&](const auto& p) { return !refuses(worker, p.second); });
+  return place == queue.end() ? nullptr : &jobs.at(place->second);
+}
+
+bool Farm::State::give_one(Worker& worker, FarmTime now) {
+  Job* job = next_job_for(worker);
+  while (job != nullptr && !job->canvas && !start(*job, now)) job = next_job_for(worker);
+  if (job == nullptr || !has_room_for(worker, job->id)) return false;
+
+  Schedule& schedule = job->canvas->schedule;
+  const std::optional<Work> work =
+      worker.info.kind == WorkerKind::local ? schedule.take_pass() : schedule.take_tile();
+  if (!schedule.has_waiting()) update_queue(*job);
+  introduce(worker, job->id, job->spec);
+  const Lease lease{job->id, work.value(), samples_in(*work, job->spec.settings), now};
+  assign(worker, LeaseId{++last_lease}, lease);
+  return true;
+}
+
+void Farm::State::fill(Worker& worker, FarmTime now) {
+  while (give_one(worker, now)) {}
+}
+
+void Farm::State::fill_all(FarmTime now) {
+  // In rounds of one lease each, so that the few tiles of a small picture are spread over all workers.
+  bool anybody_took = !queue.empty();
+  while (anybody_took) {
+    anybody_took = false;
+    for (auto& [id, worker] : workers) anybody_took |= give_one(worker, now);
+  }
+}
+
+bool Farm::State::start(Job& job, FarmTime now) {
+  const Size size = size_of(job.spec.settings);
+  try {
+    job.canvas.emplace(size);
+  } catch (const std::bad_alloc&) {
+    job.message = "the master has no memory for a picture of " + std::to_string(size.width) + "x" +
+                  std::to_string(size.height) + " pixels; ask for a smaller --size";
+    warn(title_of(job) + " failed: " + job.message);
+    end(job, JobState::failed, now);
+    return false;
+  }
+  job.state = JobState::running;
+  job.started = now;
+  job.pace.restart(now, 0);
+  ++revision;
+  tell(title_of(job) + " started");
+  return true;
+}
+
+void Farm::State::end_lease(Worker& worker, LeaseId id) {
+  const Lease lease = take_lease(worker, id);
+  Job& job = jobs.at(lease.job);
+  job.canvas->schedule.give_back(lease.work);
+  ++job.tiles_given_back;
+  ++revision;
+  update_queue(job);
+}
+
+std::vector<LeaseId> Farm::State::end_leases(Worker& worker) {
+  std::vector<LeaseId> ids;
+  for (const auto& [id, lease] : worker.leases) ids.push_back(id);
+  for (const LeaseId id : ids) end_lease(worker, id);
+  return ids;
+}
+
+void Farm::State::revoke(Worker& worker, JobId job) {
+  Revoke revoke;
+  for (const auto& [id, lease] : worker.leases)
+    if (lease.job == job) revoke.leases.push_back(id);
+  for (const LeaseId lease : revoke.leases) end_lease(worker, lease);
+  if (!revoke.leases.empty()) worker.send(std::move(revoke));
+}
+
+void Farm::State::revoke_everywhere(JobId job) {
+  for (auto& [id, worker] : workers) revoke(worker, job);
+}
+
+void Farm::State::end(Job& job, JobState state, FarmTime now) {
+  job.state = state;
+  job.ended = now;
+  ++revision;
+  update_queue(job);
+  for (auto& [id, worker] : workers) forget(worker, job.id);
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,212 @@
+#include "master/farm.h"
+
+#include "common/render/settings.h"
+#include "master/farm_state.h"
+
+namespace rayfarm {
+std::string_view name_of(JobState state) {
+  switch (state) {
+    case JobState::waiting:
+      return "waiting";
+    case JobState::running:
+      return "running";
+    case JobState::paused:
+      return "paused";
+    case JobState::done:
+      return "done";
+    case JobState::cancelled:
+      return "cancelled";
+    case JobState::failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+std::string_view name_of(WorkerState state) {
+  switch (state) {
+    case WorkerState::idle:
+      return "idle";
+    case WorkerState::busy:
+      return "busy";
+    case WorkerState::drained:
+      return "drained";
+  }
+  return "unknown";
+}
+
+Farm::Farm() : state_(std::make_unique<State>()) {}
+Farm::~Farm() = default;
+
+// Workers.
+// -----------------------------------------------------------------------------------------------------
+
+WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
+  const WorkerId id{++state_->last_worker};
+  info.name = state_->unique_name(info.name);
+  std::string joined = "worker " + info.name + " joined";
+  if (!info.address.empty()) joined += " from " + info.address;
+  joined += " with " + std::to_string(info.threads) + (info.threads == 1 ? " thread" : " threads");
+  if (!info.cpu.empty()) joined += ", " + info.cpu;
+
+  Worker& worker = state_->workers[id];
+  worker.id = id;
+  worker.name = state_->id_of_name(info.name);
+  worker.is_drained = state_->drained_names.contains(info.name);
+  worker.info = std::move(info);
+  worker.send = std::move(send);
+  worker.joined = now;
+  state_->tell(worker.is_drained ? joined + "; it is drained" : joined);
+  worker.send(Welcome{worker.info.name});
+  state_->fill(worker, now);
+  return id;
+}
+
+void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
+  Worker& worker = state_->workers.at(id);
+  const std::size_t given_back = state_->end_leases(worker).size();
+  const std::string what =
+      ": " + reason + (given_back == 0 ? "" : "; " + count_of_tiles(given_back) + " given back");
+  if (worker.is_stopping)
+    state_->tell("worker " + worker.info.name + " left" + what);
+  else
+    state_->warn("worker " + worker.info.name + " lost" + what);
+  state_->workers.erase(id);
+  state_->fill_all(now);
+}
+
+bool Farm::drain(std::string_view name, FarmTime now) {
+  Worker* worker = state_->worker_named(name);
+  if (worker == nullptr) return false;
+  if (worker->is_drained) return true;
+  worker->is_drained = true;
+  state_->drained_names.insert(worker->info.name);
+  std::vector<LeaseId> leases = state_->end_leases(*worker);
+  state_->tell("worker " + worker->info.name + " drained; " + count_of_tiles(leases.size()) + " given back");
+  if (!leases.empty()) worker->send(Revoke{std::move(leases)});
+  state_->fill_all(now);
+  return true;
+}
+
+bool Farm::undrain(std::string_view name, FarmTime now) {
+  Worker* worker = state_->worker_named(name);
+  const auto drained = state_->drained_names.find(name);
+  if (drained == state_->drained_names.end()) return worker != nullptr;
+  state_->tell("worker " + *drained + " no longer drained");
+  state_->drained_names.erase(drained);
+  if (worker == nullptr) return true;
+  worker->is_drained = false;
+  state_->fill(*worker, now);
+  return true;
+}
+
+// Jobs.
+// --------------------------------------------------------------------------------------------------------
+
+JobId Farm::submit(JobSpec spec, FarmTime now) {
+  check(spec.settings);
+  if (const auto known = state_->job_by_key.find(spec.key);
+      !spec.key.empty() && known != state_->job_by_key.end())
+    return known->second;
+
+  const JobId id{++state_->last_job};
+  if (!spec.key.empty()) state_->job_by_key[spec.key] = id;
+  Job& job = state_->jobs[id];
+  job.id = id;
+  job.spec = std::move(spec);
+  job.state = job.spec.hold ? JobState::paused : JobState::waiting;
+  job.submitted = now;
+  ++state_->revision;
+  const RenderSettings& settings = job.spec.settings;
+  state_->tell(title_of(job) + " submitted: " + std::to_string(settings.width) + "x" +
+               std::to_string(settings.height) + ", " + std::to_string(settings.spp) + " spp, priority " +
+               std::to_string(job.spec.priority) + (job.spec.hold ? ", on hold" : ""));
+  state_->update_queue(job);
+  state_->fill_all(now);
+  return id;
+}
+
+bool Farm::pause(JobId id, FarmTime now) {
+  Job* job = state_->living_job(id);
+  if (job == nullptr) return false;
+  if (job->state == JobState::paused) return true;
+  job->state = JobState::paused;
+  ++state_->revision;
+  state_->tell(title_of(*job) + " paused");
+  state_->revoke_everywhere(id);
+  state_->update_queue(*job);
+  state_->fill_all(now);
+  return true;
+}
+
+bool Farm::resume(JobId id, FarmTime now) {
+  Job* job = state_->living_job(id);
+  if (job == nullptr) return false;
+  if (job->state != JobState::paused) return true;
+  job->state = job->started ? JobState::running : JobState::waiting;
+  if (job->canvas) job->pace.restart(now, job->canvas->film->pixels_done());
+  ++state_->revision;
+  state_->tell(title_of(*job) + " resumed");
+  state_->update_queue(*job);
+  state_->fill_all(now);
+  return true;
+}
+
+bool Farm::cancel(JobId id, FarmTime now) {
+  Job* job = state_->living_job(id);
+  if (job == nullptr) return false;
+  state_->tell(title_of(*job) + " cancelled");
+  state_->revoke_everywhere(id);
+  state_->end(*job, JobState::cancelled, now);
+  state_->fill_all(now);
+  return true;
+}
+
+bool Farm::set_priority(JobId id, int priority, FarmTime) {
+  Job* job = state_->living_job(id);
+  if (job == nullptr) return false;
+  state_->queue.erase({-job->spec.priority, id});
+  job->spec.priority = priority;
+  ++state_->revision;
+  state_->update_queue(*job);
+  return true;
+}
+
+// Views.
+// -------------------------------------------------------------------------------------------------------
+
+std::vector<JobView> Farm::jobs(FarmTime now) const {
+  std::vector<JobView> views;
+  views.reserve(state_->jobs.size());
+  for (const auto& [id, job] : state_->jobs) views.push_back(view_of(job, now));
+  return views;
+}
+
+std::optional<JobView> Farm::job(JobId id, FarmTime now) const {
+  const auto job = state_->jobs.find(id);
+  if (job == state_->jobs.end()) return std::nullopt;
+  return view_of(job->second, now);
+}
+
+std::vector<WorkerView> Farm::workers() const {
+  std::vector<WorkerView> views;
+  views.reserve(state_->workers.size());
+  for (const auto& [id, worker] : state_->workers) views.push_back(view_of(worker));
+  return views;
+}
+
+std::string Farm::name_of_worker(WorkerId id) const {
+  const auto worker = state_->workers.find(id);
+  return worker == state_->workers.end() ? std::string() : worker->second.info.name;
+}
+
+std::shared_ptr<const Film> Farm::film(JobId id) const {
+  const auto job = state_->jobs.find(id);
+  if (job == state_->jobs.end() || !job->second.canvas) return nullptr;
+  return job->second.canvas->film;
+}
+
+std::uint64_t Farm::revision() const { return state_->revision; }
+
+std::vector<FarmEvent> Farm::take_events() { return std::exchange(state_->events, {}); }
+
+}  // namespace rayfarm

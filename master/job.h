@@ -1,0 +1,59 @@
+// A job inside the farm: what was asked for, what is there of it, what is still to do.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/farm.h"
+#include "master/pace.h"
+#include "master/schedule.h"
+
+namespace rayfarm {
+
+/// A worker's name by its number in the farm's list: whom a pass came from, also when the worker is gone.
+enum class NameId : std::uint32_t {};
+
+/// The big part of a job, made at its first assignment.
+struct Canvas {
+  explicit Canvas(Size size)
+      : film(std::make_shared<Film>(size)), schedule(size), delivered_by(tile_count(size)) {}
+
+  std::shared_ptr<Film> film;
+  Schedule schedule;
+  std::vector<std::array<NameId, pass_count>> delivered_by;  // by tile and pass; of those that are there
+};
+
+struct Job {
+  JobId id{};
+  JobSpec spec;
+  JobState state = JobState::waiting;
+  std::string message;
+  std::optional<Canvas> canvas;
+  RayCounters counters;
+  Pace pace;
+  FarmTime submitted{};
+  std::optional<FarmTime> started, ended;
+  std::uint64_t tiles_given_back = 0;
+};
+
+Size size_of(const RenderSettings& settings);
+bool has_ended(const Job& job);
+/// May be worked on, and some of it is waiting.
+bool wants_workers(const Job& job);
+/// As people know it: job 7 (sphere_flake).
+std::string title_of(const Job& job);
+/// 1 tile, 2 tiles.
+std::string count_of_tiles(std::size_t count);
+JobView view_of(const Job& job, FarmTime now);
+
+/// Why the images are not those that the work asks for; nothing when they are.
+std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size film, const Work& work);
+/// Takes the images of a lease's work into the film. They must be without fault.
+void commit(Job& job, const Work& work, const std::vector<PassImage>& images, NameId by, FarmTime now);
+/// Who delivered other pixels than these, if anybody did. Passes not there yet are not compared.
+std::optional<NameId> contradicted(const Job& job, std::uint32_t tile, const std::vector<PassImage>& images);
+
+}  // namespace rayfarm

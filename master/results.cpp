@@ -1,0 +1,113 @@
+// What comes back from workers: results in time and too late, and work they will not do.
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "master/farm_state.h"
+
+namespace rayfarm {
+namespace {
+
+[[noreturn]] void tell_off(const Result& result, const std::string& fault) {
+  throw WorkerError("wrong result for tile " + std::to_string(result.tile) + " of job " +
+                    std::to_string(static_cast<std::uint64_t>(result.job)) + ": " + fault);
+}
+
+std::optional<std::string> lease_fault_of(const Result& result, const Lease& lease, const Job& job) {
+  if (result.job != lease.job || result.tile != lease.work.tile)
+    return "its lease is for tile " + std::to_string(lease.work.tile) + " of " + title_of(job);
+  return fault_of(result.images, size_of(job.spec.settings), lease.work);
+}
+
+PassSet passes_in(const std::vector<PassImage>& images) {
+  PassSet passes = 0;
+  for (const PassImage& image : images)
+    if (image.pass >= 0 && image.pass < pass_count) passes |= static_cast<PassSet>(1u << image.pass);
+  return passes;
+}
+
+std::string seconds(FarmTime time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", std::chrono::duration<double>(time).count());
+  return text;
+}
+
+}  // namespace
+
+void Farm::receive(WorkerId id, Result result, FarmTime now) {
+  Worker& worker = state_->workers.at(id);
+  if (!worker.leases.contains(result.lease)) return state_->compare_late(worker, result);
+
+  const Lease lease = worker.leases.at(result.lease);
+  if (const auto fault = lease_fault_of(result, lease, state_->jobs.at(lease.job))) {
+    state_->end_lease(worker, result.lease);
+    tell_off(result, *fault);
+  }
+  take_lease(worker, result.lease);
+  state_->deliver(worker, lease, result, now);
+  state_->fill(worker, now);
+}
+
+void Farm::State::deliver(Worker& worker, const Lease& lease, const Result& result, FarmTime now) {
+  Job& job = jobs.at(lease.job);
+  commit(job, lease.work, result.images, worker.name, now);
+  learn_speed(worker, lease, result.seconds, now);
+  ++worker.tiles;
+  worker.pixels += lease.samples / job.spec.settings.spp;
+  ++revision;
+  if (!job.canvas->film->is_complete()) return;
+  tell(title_of(job) + " done in " + seconds(now - *job.started));
+  end(job, JobState::done, now);
+}
+
+void Farm::State::compare_late(Worker& worker, const Result& result) {
+  if (static_cast<std::uint64_t>(result.lease) > last_lease) tell_off(result, "no such lease was given");
+  const auto found = jobs.find(result.job);
+  if (found == jobs.end() || !found->second.canvas) tell_off(result, "nothing of that job was given");
+  const Job& job = found->second;
+  const Size film = size_of(job.spec.settings);
+  if (result.tile >= tile_count(film)) tell_off(result, "the picture has no such tile");
+  if (const auto fault = fault_of(result.images, film, {result.tile, passes_in(result.images)}))
+    tell_off(result, *fault);
+
+  const std::optional<NameId> other = contradicted(job, result.tile, result.images);
+  if (!other || worker.was_contradicted) return;
+  worker.was_contradicted = true;  // one line for each connection: a broken machine must not flood the log
+  warn("workers " + name_of(worker) + " and " + names[static_cast<std::size_t>(*other)] +
+       " differ in the pixels of tile " + std::to_string(result.tile) + " of " + title_of(job) +
+       "; one of them computes wrongly");
+}
+
+void Farm::receive(WorkerId id, GiveBack given, FarmTime now) {
+  Worker& worker = state_->workers.at(id);
+  std::map<JobId, std::size_t> tiles;
+  for (const LeaseId lease : given.leases) {
+    const auto held = worker.leases.find(lease);
+    if (held == worker.leases.end()) continue;  // revoked meanwhile
+    ++tiles[held->second.job];
+    state_->end_lease(worker, lease);
+  }
+  const bool is_refusal = !given.reason.empty();
+  if (!is_refusal) worker.is_stopping = true;
+  for (const auto& [job_id, count] : tiles) {
+    Job& job = state_->jobs.at(job_id);
+    state_->tell("worker " + worker.info.name + " gave back " + count_of_tiles(count) + " of " +
+                 title_of(job) + ": " + (is_refusal ? given.reason : "it is stopping"));
+    if (is_refusal) state_->refuse(worker, job, given.reason, now);
+  }
+  state_->fill_all(now);
+}
+
+void Farm::State::refuse(Worker& worker, Job& job, const std::string& reason, FarmTime now) {
+  worker.jobs.at(job.id).is_refused = true;
+  job.message = "worker " + worker.info.name + ": " + reason;
+  ++revision;
+  revoke(worker, job.id);
+  const bool somebody_can = std::ranges::any_of(
+      workers, [&](const auto& w) { return !w.second.is_stopping && !refuses(w.second, job.id); });
+  if (somebody_can || job.canvas->film->pixels_done() > 0) return;
+  warn(title_of(job) + " failed: no worker can render it; " + job.message);
+  end(job, JobState::failed, now);
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,85 @@
+#include "master/worker.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace rayfarm {
+namespace {
+
+constexpr std::uint32_t spare_leases = 2;  // beside one a thread: the next tile is there when one ends
+constexpr double seconds_of_work = 0.25;   // hides the journey of a tile, and is soon given back
+constexpr std::size_t most_leases = 1024;  // however fast: what a lost worker costs stays small
+
+bool knows_scene(const Worker& worker, const std::string& hash) {
+  return std::ranges::any_of(worker.jobs, [&](const auto& known) { return known.second.scene_hash == hash; });
+}
+
+}  // namespace
+
+bool may_work(const Worker& worker) { return !worker.is_drained && !worker.is_stopping; }
+
+bool refuses(const Worker& worker, JobId job) {
+  const auto known = worker.jobs.find(job);
+  return known != worker.jobs.end() && known->second.is_refused;
+}
+
+bool has_room_for(const Worker& worker, JobId job) {
+  const std::uint32_t threads = worker.info.threads;
+  if (worker.leases.size() >= most_leases) return false;
+  if (worker.leases.size() < std::size_t{threads} + spare_leases) return true;
+  const auto known = worker.jobs.find(job);
+  if (known == worker.jobs.end()) return false;
+  const double samples_per_second = known->second.speed.samples_per_second() * threads;
+  return static_cast<double>(worker.samples_held) < seconds_of_work * samples_per_second;
+}
+
+WorkerView view_of(const Worker& worker) {
+  WorkerView view;
+  view.id = worker.id;
+  view.info = worker.info;
+  view.state = worker.is_drained       ? WorkerState::drained
+               : worker.leases.empty() ? WorkerState::idle
+                                       : WorkerState::busy;
+  view.leases = static_cast<std::uint32_t>(worker.leases.size());
+  view.tiles = worker.tiles, view.pixels = worker.pixels;
+  view.samples_per_second = worker.speed.samples_per_second() * worker.info.threads;
+  view.joined = worker.joined;
+  return view;
+}
+
+void introduce(Worker& worker, JobId id, const JobSpec& job) {
+  if (worker.jobs.contains(id)) return;
+  if (!knows_scene(worker, job.scene_hash)) worker.send(SceneData{job.scene_hash, job.scene_bytes});
+  worker.send(JobStart{id, job.scene_hash, job.settings});
+  worker.jobs[id].scene_hash = job.scene_hash;
+}
+
+void forget(Worker& worker, JobId job) {
+  if (worker.jobs.erase(job) != 0) worker.send(JobEnd{job});
+}
+
+void assign(Worker& worker, LeaseId id, const Lease& lease) {
+  worker.leases.emplace(id, lease);
+  worker.samples_held += lease.samples;
+  worker.send(Assignment{id, lease.job, lease.work.tile, lease.work.passes});
+}
+
+Lease take_lease(Worker& worker, LeaseId id) {
+  const auto held = worker.leases.find(id);
+  assert(held != worker.leases.end());
+  const Lease lease = held->second;
+  worker.leases.erase(held);
+  worker.samples_held -= lease.samples;
+  return lease;
+}
+
+void learn_speed(Worker& worker, const Lease& lease, double seconds, FarmTime now) {
+  const double longest = std::chrono::duration<double>(now - lease.given).count();
+  const double believed = seconds > 0 ? std::min(seconds, longest) : 0;  // not of a NaN, either
+  const auto taken = std::chrono::duration_cast<FarmTime>(std::chrono::duration<double>(believed));
+  worker.speed.add(lease.samples, taken);
+  if (const auto known = worker.jobs.find(lease.job); known != worker.jobs.end())
+    known->second.speed.add(lease.samples, taken);
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,64 @@
+// A worker as the farm sees it: what it can, what it knows, what it holds.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/farm.h"
+#include "master/job.h"
+#include "master/pace.h"
+#include "master/schedule.h"
+
+namespace rayfarm {
+
+/// Work that one worker was asked to do; good for one result.
+struct Lease {
+  JobId job{};
+  Work work;
+  std::uint64_t samples = 0;
+  FarmTime given{};
+};
+
+struct Worker {
+  WorkerId id{};
+  WorkerInfo info;
+  NameId name{};
+  Farm::Send send;
+  FarmTime joined{};
+  bool is_drained = false;
+  bool is_stopping = false;  // said so itself
+  bool was_contradicted = false;
+
+  /// A job that this worker was told of and not yet told the end of.
+  struct KnownJob {
+    std::string scene_hash;
+    Speed speed;
+    bool is_refused = false;  // the worker cannot render it
+  };
+  std::map<JobId, KnownJob> jobs;
+
+  std::map<LeaseId, Lease> leases;  // held now
+  std::uint64_t samples_held = 0;   // sum over leases
+
+  Speed speed;  // over all jobs
+  std::uint64_t tiles = 0, pixels = 0;
+};
+
+bool may_work(const Worker& worker);
+bool refuses(const Worker& worker, JobId job);
+/// Whether a lease of this job would keep it busier, not just make its queue longer.
+bool has_room_for(const Worker& worker, JobId job);
+WorkerView view_of(const Worker& worker);
+
+/// Makes the job known, sending what of it the worker has not got.
+void introduce(Worker& worker, JobId id, const JobSpec& job);
+/// Lets the job be forgotten, if it is known.
+void forget(Worker& worker, JobId job);
+void assign(Worker& worker, LeaseId id, const Lease& lease);
+/// Takes a lease that the worker holds away from it, silently.
+Lease take_lease(Worker& worker, LeaseId id);
+/// What a delivery says about the worker's speed. No thread works longer than its lease is old.
+void learn_speed(Worker& worker, const Lease& lease, double seconds, FarmTime now);
+
+}  // namespace rayfarm
