@@ -39,7 +39,7 @@ Affine any_leaf(Dice& dice) {
   do {
     for (int column = 0; column < 3; ++column) m.linear[column] = dice.vec(-1.2, 1.2);
   } while (std::abs(glm::determinant(m.linear)) < 0.15);
-  m.offset = dice.vec(-1.5, 1.5);
+  m.offset = dice.vec(-1, 1);
   return m;
 }
 
@@ -55,7 +55,7 @@ double any_length(Dice& dice) { return dice.between(0.25, 1.5); }
 // Axes in any order and direction, lengths 1/2 ... 3/2, now and then sheared by a quarter.
 Affine snapped_leaf(Dice& dice) {
   const int first = dice.one_of(3), turn = 1 + dice.one_of(2);
-  Affine m{glm::dmat3(0.0), {dice.quarter(-6, 6), dice.quarter(-6, 6), dice.quarter(-6, 6)}};
+  Affine m{glm::dmat3(0.0), {dice.quarter(-4, 4), dice.quarter(-4, 4), dice.quarter(-4, 4)}};
   for (int column = 0; column < 3; ++column)
     m.linear[column][(first + column * turn) % 3] = (dice.chance(0.5) ? 1 : -1) * 0.5 * (1 + dice.one_of(3));
   if (dice.chance(0.2)) m.linear[dice.one_of(3)] += 0.25 * m.linear[dice.one_of(2)];
