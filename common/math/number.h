@@ -1,4 +1,5 @@
-// What geometry over a number type needs besides + - * /: the same words for one double and, later, for a pack.
+// What geometry over a number type needs besides + - * /: the same words for one double and, later, for a
+// pack.
 #pragma once
 #include <cmath>
 #include <limits>

@@ -11,9 +11,9 @@
 
 namespace rayfarm {
 
-/// Renders `passes` of the tile, coarse first. Asks stop() between samples; when it says true the call returns
-/// nothing, and what was rendered of the tile is dropped.
-/// Every sample is a pure function of (world, settings, pixel, sample index): no thread, order or tile matters.
+/// Renders `passes` of the tile, coarse first. Asks stop() between samples; when it says true the call
+/// returns nothing, and what was rendered of the tile is dropped. Every sample is a pure function of (world,
+/// settings, pixel, sample index): no thread, order or tile matters.
 std::optional<std::vector<PassImage>> render_tile(const World& world, const RenderSettings& settings,
                                                   std::uint32_t tile, PassSet passes,
                                                   const std::function<bool()>& stop);

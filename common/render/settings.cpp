@@ -38,12 +38,13 @@ void check(const RenderSettings& s) {
     throw SettingsError("--sampler must be sobol, jitter, regular or random");
   if ((s.sampler == SamplerKind::jitter || s.sampler == SamplerKind::regular) && !is_square(s.spp)) {
     const auto below = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.spp)));
-    throw SettingsError("--sampler " + std::string(name_of(s.sampler)) + " wants a square number of samples; --spp " +
-                        number(s.spp) + " is none, " + number(below * below) + " and " +
-                        number((below + 1) * (below + 1)) + " are");
+    throw SettingsError("--sampler " + std::string(name_of(s.sampler)) +
+                        " wants a square number of samples; --spp " + number(s.spp) + " is none, " +
+                        number(below * below) + " and " + number((below + 1) * (below + 1)) + " are");
   }
   if (s.max_depth > max_recursion_depth)
-    throw SettingsError("--depth must be 0 to " + number(max_recursion_depth) + ", is " + number(s.max_depth));
+    throw SettingsError("--depth must be 0 to " + number(max_recursion_depth) + ", is " +
+                        number(s.max_depth));
   if (!(s.min_importance >= 0 && s.min_importance <= 1))
     throw SettingsError("--min-importance must be 0 to 1, is " + number(s.min_importance));
 }

@@ -21,8 +21,8 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::sobol;
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
-  std::uint32_t max_depth = 12;   // a primary ray has depth 0
-  double min_importance = 0.05;   // a secondary ray of less importance is not traced
+  std::uint32_t max_depth = 12;  // a primary ray has depth 0
+  double min_importance = 0.05;  // a secondary ray of less importance is not traced
   bool shadows = true, reflections = true, refractions = true;
   bool operator==(const RenderSettings&) const = default;
 };
@@ -32,7 +32,7 @@ struct SettingsError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-constexpr std::uint32_t max_side = 60'000;             // pixels
+constexpr std::uint32_t max_side = 60'000;  // pixels
 constexpr std::uint64_t max_pixels = 500'000'000;
 constexpr std::uint32_t max_spp = 1u << 20;
 constexpr std::uint32_t max_recursion_depth = 100;

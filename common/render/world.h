@@ -1,5 +1,5 @@
-// A scene made ready for rays: leaves with their transforms and error bounds, objects, their bounding hierarchy.
-// Derived from Scene on each side; never travels.
+// A scene made ready for rays: leaves with their transforms and error bounds, objects, their bounding
+// hierarchy. Derived from Scene on each side; never travels.
 #pragma once
 #include <memory>
 

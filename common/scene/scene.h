@@ -1,7 +1,8 @@
 // What a picture shows, as one value: the CSG tree with its surfaces, the camera, the lights.
 // A Scene is all that travels (to the master, to workers, to disk); each side builds its World from it.
 //
-// Space: world is x right, y up; colours are linear Rec. 709 RGB, unbounded; lengths are the scene's own unit.
+// Space: world is x right, y up; colours are linear Rec. 709 RGB, unbounded; lengths are the scene's own
+// unit.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,8 @@
 
 namespace rayfarm {
 
-// Solids, each in its local space. -----------------------------------------------------------------------------
+// Solids, each in its local space.
+// -----------------------------------------------------------------------------
 
 struct Sphere {  // unit radius about the origin
   bool operator==(const Sphere&) const = default;
@@ -33,15 +35,16 @@ struct Cylinder {  // x^2 + y^2 < 1, z_min < z < z_max; infinite limits mean no 
   double z_max = std::numeric_limits<double>::infinity();
   bool operator==(const Cylinder&) const = default;
 };
-/// Axis z; the tube's centre runs on the circle of radius R in z = 0, the tube has radius r. Both > 0. A spindle
-/// torus (R < r) is the apple without the lemon.
+/// Axis z; the tube's centre runs on the circle of radius R in z = 0, the tube has radius r. Both > 0. A
+/// spindle torus (R < r) is the apple without the lemon.
 struct Torus {
   double R = 1, r = 0.25;
   bool operator==(const Torus&) const = default;
 };
 using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus>;
 
-// Surfaces. ----------------------------------------------------------------------------------------------------
+// Surfaces.
+// ----------------------------------------------------------------------------------------------------
 
 /// Phong's model with Schlick's factor. Weights are >= 0.
 struct Material {
@@ -49,8 +52,8 @@ struct Material {
   double ambient = 0.2, diffuse = 0.7, specular = 0.2;
   std::uint32_t exponent = 16;
   double transmission = 0;
-  double index = 1.5;   // of refraction, > 0
-  double schlick = 1;   // 0 switches the grazing-angle factor off
+  double index = 1.5;  // of refraction, > 0
+  double schlick = 1;  // 0 switches the grazing-angle factor off
   bool operator==(const Material&) const = default;
 };
 
@@ -62,7 +65,8 @@ struct Checker {
 };
 using Texture = std::variant<Checker>;
 
-// The tree. ----------------------------------------------------------------------------------------------------
+// The tree.
+// ----------------------------------------------------------------------------------------------------
 
 enum class CsgOp : std::uint8_t { unite, intersect, subtract, exclusive_or };
 
@@ -77,19 +81,20 @@ struct Node {
   std::variant<Operation, Solid> content;
   Affine parent_from_node;
   std::optional<std::uint32_t> material;  // index into Scene::materials; inherited by what is below
-  std::optional<glm::dvec3> color;        // stands above any material's colour, also above one set further down
-  std::vector<Texture> textures;          // those of ancestors come first
+  std::optional<glm::dvec3> color;  // stands above any material's colour, also above one set further down
+  std::vector<Texture> textures;    // those of ancestors come first
   std::string name;
   bool operator==(const Node&) const = default;
 };
 
-// Cameras and lights. ------------------------------------------------------------------------------------------
+// Cameras and lights.
+// ------------------------------------------------------------------------------------------
 
 struct PerspectiveCamera {
   glm::dvec3 from{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};  // any length > 0
   glm::dvec3 up{0.0, 1.0, 0.0};
-  double angle_deg = 50;                // horizontal, full, 0 < angle < 180
+  double angle_deg = 50;  // horizontal, full, 0 < angle < 180
   bool operator==(const PerspectiveCamera&) const = default;
 };
 using Camera = std::variant<PerspectiveCamera>;
@@ -113,7 +118,8 @@ struct RectangleLight {
 };
 using Light = std::variant<AmbientLight, PointLight, RectangleLight>;
 
-// The whole. ---------------------------------------------------------------------------------------------------
+// The whole.
+// ---------------------------------------------------------------------------------------------------
 
 /// What the scene asks for; the command line stands above it, the built-in default below.
 struct ImageDefaults {
@@ -145,8 +151,8 @@ constexpr std::size_t max_nodes = 8'000'000;
 constexpr std::uint32_t max_tree_depth = 256;
 constexpr std::size_t max_lights = 1024;
 
-/// Throws SceneError unless the scene can be rendered: the tree closes, indices are in range, numbers are finite
-/// and in range, every leaf's transform can be inverted, the camera looks somewhere.
+/// Throws SceneError unless the scene can be rendered: the tree closes, indices are in range, numbers are
+/// finite and in range, every leaf's transform can be inverted, the camera looks somewhere.
 void check(const Scene& scene);
 
 }  // namespace rayfarm

@@ -1,0 +1,57 @@
+// Axis-aligned boxes, possibly unbounded, and the slab test against a ray.
+#pragma once
+#include "common/geometry/ray.h"
+#include "common/math/number.h"
+#include "common/math/vec.h"
+
+namespace rayfarm {
+
+/// Closed. Empty when low > high in some axis.
+struct Box {
+  Vec3d low{infinity, infinity, infinity};
+  Vec3d high{-infinity, -infinity, -infinity};
+
+  bool is_empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
+  bool is_bounded() const { return max_abs(low) < infinity && max_abs(high) < infinity; }
+};
+
+inline Box everywhere() { return {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}}; }
+
+inline Box hull(const Box& a, const Box& b) {
+  return {{least(a.low.x, b.low.x), least(a.low.y, b.low.y), least(a.low.z, b.low.z)},
+          {greatest(a.high.x, b.high.x), greatest(a.high.y, b.high.y), greatest(a.high.z, b.high.z)}};
+}
+
+inline Box overlap(const Box& a, const Box& b) {
+  return {{greatest(a.low.x, b.low.x), greatest(a.low.y, b.low.y), greatest(a.low.z, b.low.z)},
+          {least(a.high.x, b.high.x), least(a.high.y, b.high.y), least(a.high.z, b.high.z)}};
+}
+
+/// Half the surface: the chance of a ray to meet the box is in proportion to it.
+inline double half_area(const Box& b) {
+  if (b.is_empty()) return 0;
+  const Vec3d e = b.high - b.low;
+  return e.x * e.y + e.y * e.z + e.z * e.x;
+}
+
+/// Where the ray is in the box, 0 <= entry; it misses when entry > exit. Conservative: rounding never loses a
+/// box. Source: T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
+struct BoxSpan {
+  double entry, exit;
+};
+
+inline BoxSpan span_in(const Box& box, const RayQuery& q, double t_max) {
+  double entry = 0, exit = t_max;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double o = q.ray.origin[axis], inverse = q.inverse[axis];
+    const double a = (box.low[axis] - o) * inverse, b = (box.high[axis] - o) * inverse;
+    const double near = inverse < 0 ? b : a;
+    const double far = (inverse < 0 ? a : b) * (1 + 8 * unit_roundoff);
+    // 0 * infinity is NaN, which compares false: a ray in the box's face counts as inside.
+    if (near > entry) entry = near;
+    if (far < exit) exit = far;
+  }
+  return {entry, exit};
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,105 @@
+#include "common/geometry/csg.h"
+
+namespace rayfarm {
+namespace {
+
+/// Changes the leaf's side and what follows from it upwards.
+void toggle(std::span<const CsgItem> items, std::vector<std::int32_t>& counts, std::uint32_t item) {
+  counts[item] ^= 1;
+  bool inside = counts[item] != 0;
+  while (item != items[item].parent) {
+    const std::uint32_t parent = items[item].parent;
+    const bool before = is_inside(items[parent], counts[parent]);
+    counts[parent] += inside ? items[item].weight : -items[item].weight;
+    inside = is_inside(items[parent], counts[parent]);
+    if (inside == before) return;
+    item = parent;
+  }
+}
+
+/// The leaf shown where several change sides at once: children are combined from left to right, and where
+/// both sides of a combination change, the left one is shown.
+std::uint32_t shown_leaf(std::span<const CsgItem> items, const CsgWorkspace& ws, std::uint32_t item) {
+  const CsgItem& node = items[item];
+  if (node.leaf != no_leaf) return item;
+  const auto combined = [&](bool left, bool right) {
+    switch (node.op) {
+      case CsgOp::unite:
+        return left || right;
+      case CsgOp::intersect:
+        return left && right;
+      case CsgOp::subtract:
+        return left && !right;
+      case CsgOp::exclusive_or:
+        return left != right;
+    }
+    return false;
+  };
+  std::uint32_t child = item + 1, shown = child;
+  bool before = false, after = false;
+  for (std::uint32_t i = 0; i < node.children; ++i, child = items[child].next) {
+    const bool was = is_inside(items[child], ws.counts_before[child]);
+    const bool is = is_inside(items[child], ws.counts[child]);
+    const bool left_changed = i > 0 && before != after;
+    before = i == 0 ? was : combined(before, was);
+    after = i == 0 ? is : combined(after, is);
+    if (!left_changed && was != is) shown = child;
+  }
+  return shown_leaf(items, ws, shown);
+}
+
+}  // namespace
+
+bool gather(std::span<const CsgItem> items, std::span<const Leaf> leaves, const RayQuery& q, double t_max,
+            CsgWorkspace& ws) {
+  ws.counts.assign(items.size(), 0);
+  ws.events.clear();
+  for (std::uint32_t i = 0; i < items.size();) {
+    const CsgItem& item = items[i];
+    const BoxSpan span = span_in(item.box, q, t_max);
+    if (span.entry > span.exit) {
+      i = item.next;
+      continue;
+    }
+    if (item.leaf != no_leaf) {
+      const Crossings c = crossings_ahead(leaves[item.leaf], item.leaf, q);
+      if (c.starts_inside) toggle(items, ws.counts, i);
+      for (int k = 0; k < c.count; ++k) {
+        const Crossing& at = c.at[static_cast<std::size_t>(k)];
+        ws.events.push_back({at.lo(), at.hi(), at.t, at.error, i});
+      }
+    }
+    ++i;
+  }
+  std::sort(ws.events.begin(), ws.events.end(),
+            [](const auto& a, const auto& b) { return a.lo != b.lo ? a.lo < b.lo : a.item < b.item; });
+  return is_inside(items[0], ws.counts[0]);
+}
+
+bool next_boundary(std::span<const CsgItem> items, CsgWorkspace& ws, std::size_t& next, Boundary& found) {
+  const auto inside = [&] { return is_inside(items[0], ws.counts[0]); };
+  while (next < ws.events.size()) {
+    const std::size_t first = next++;
+    double hi = ws.events[first].hi;
+    while (next < ws.events.size() && ws.events[next].lo <= hi) hi = greatest(hi, ws.events[next++].hi);
+
+    const bool before = inside();
+    std::size_t shown = first;
+    if (next - first == 1) {
+      toggle(items, ws.counts, ws.events[first].item);
+      if (inside() == before) continue;
+    } else {
+      ws.counts_before = ws.counts;
+      for (std::size_t e = first; e < next; ++e) toggle(items, ws.counts, ws.events[e].item);
+      if (inside() == before) continue;
+      const std::uint32_t item = shown_leaf(items, ws, 0);
+      while (ws.events[shown].item != item) ++shown;
+    }
+    const CsgWorkspace::Event& e = ws.events[shown];
+    found = {e.t, e.error, items[e.item].leaf, ws.counts[e.item] != 0, !before};
+    return true;
+  }
+  return false;
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,69 @@
+// The cube [0,1]^3, as three slabs.
+// Source: T. L. Kay and J. T. Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986 (slabs).
+#pragma once
+#include "common/geometry/crossing.h"
+#include "common/geometry/ray.h"
+#include "common/geometry/surface_point.h"
+
+namespace rayfarm {
+
+/// Where the line is between the planes `low` and `high` of one axis. A direction within its own error of
+/// parallel never crosses them: the line is between them, or it is not.
+template <class T>
+Interval<T> slab_interval(T o, T d, T low, T high, T o_error, T d_error) {
+  using std::fabs;
+  if (none(fabs(d) > d_error)) return o > low && o < high ? Interval<T>{} : empty_interval<T>();
+  const T a = (low - o) / d, b = (high - o) / d;
+  const auto error = [&](T t) {
+    return (o_error + fabs(t) * d_error) / fabs(d) + T(3 * unit_roundoff) * fabs(t);
+  };
+  const T first = select(d > T(0), a, b), last = select(d > T(0), b, a);
+  // An open slab (an uncapped cylinder) has no planes at infinity.
+  Interval<T> inside;
+  if (first > T(-infinity)) inside.enter = bounded(first, error(first));
+  if (last < T(infinity)) inside.leave = bounded(last, error(last));
+  return inside;
+}
+
+template <class T>
+Interval<T> cube_interval(const LocalRay<T>& r) {
+  Interval<T> inside;
+  for (int axis = 0; axis < 3; ++axis)
+    inside = intersection(inside, slab_interval(r.origin[axis], r.direction[axis], T(0), T(1), r.origin_error,
+                                                r.direction_error));
+  return inside;
+}
+
+/// The axis whose plane the ray passes where it enters (or leaves) the cube.
+template <class T>
+int cube_face_axis(const LocalRay<T>& r, bool entering) {
+  int face = 0;
+  T best = T(entering ? -infinity : infinity);
+  for (int axis = 0; axis < 3; ++axis) {
+    const T d = r.direction[axis], o = r.origin[axis];
+    using std::fabs;
+    if (!(fabs(d) > r.direction_error)) continue;
+    const T t = ((d > T(0)) == entering ? T(0) - o : T(1) - o) / d;
+    if (entering ? t > best : t < best) best = t, face = axis;
+  }
+  return face;
+}
+
+inline SurfacePoint cube_surface(const LocalRay<double>& r, double t, bool entering) {
+  const int axis = cube_face_axis(r, entering);
+  const bool high = (r.direction[axis] > 0) != entering;
+  Vec3d p = r.origin + r.direction * t, n{};
+  for (int i = 0; i < 3; ++i) p[i] = least(greatest(p[i], 0), 1);
+  p[axis] = high ? 1 : 0;
+  n[axis] = high ? 1 : -1;
+  return {p, n};
+}
+
+/// Faces +-x show (y, z), +-y (x, z), +-z (x, y).
+inline TextureCoordinates cube_texture(const Vec3d& p, const Vec3d& n) {
+  if (n.x != 0) return {p.y, p.z};
+  if (n.y != 0) return {p.x, p.z};
+  return {p.x, p.y};
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,67 @@
+// A leaf of the CSG tree made ready for rays: its solid, its transforms and how far off they may be.
+#pragma once
+#include "common/geometry/bounds.h"
+#include "common/geometry/crossing.h"
+#include "common/geometry/ray.h"
+#include "common/geometry/surface_point.h"
+#include "common/math/affine.h"
+#include "common/scene/scene.h"
+
+namespace rayfarm {
+
+/// A transform with a bound on each of its numbers' distance from the exact chain of products.
+struct BoundedAffine {
+  Affine map;
+  glm::dmat3 linear_error{0.0};
+  glm::dvec3 offset_error{0.0};
+};
+
+/// A node's own transform: as written in a script it is a product of a few rotations and scales already.
+BoundedAffine bounded(const Affine& map);
+BoundedAffine operator*(const BoundedAffine& a, const BoundedAffine& b);
+BoundedAffine inverse(const BoundedAffine& m);
+
+/// What every ray test reads.
+struct Leaf {
+  Vec3d row[3];  // local = row * world + offset
+  Vec3d offset;
+  double error_per_size;  // bound on |local error| = error_per_size * |world| + error_constant, largest
+                          // components
+  double error_constant;
+  double stretch;  // largest |local| for a world vector with components up to 1
+  Solid solid;
+};
+
+Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local);
+
+/// Never too small; the error of the transform is included.
+Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local);
+
+inline LocalRay<double> to_local(const Leaf& leaf, const RayQuery& q) {
+  const Vec3d &o = q.ray.origin, &d = q.ray.direction;
+  return {{dot(leaf.row[0], o) + leaf.offset.x, dot(leaf.row[1], o) + leaf.offset.y,
+           dot(leaf.row[2], o) + leaf.offset.z},
+          {dot(leaf.row[0], d), dot(leaf.row[1], d), dot(leaf.row[2], d)},
+          leaf.error_per_size * q.origin_size + leaf.error_constant + leaf.stretch * q.ray.origin_error,
+          leaf.error_per_size * q.direction_size};
+}
+
+/// The leaf's crossings ahead of the ray.
+Crossings crossings(const Leaf& leaf, const LocalRay<double>& ray);
+/// The same for a ray that starts on this leaf's surface: the crossing there is known and left out.
+Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, bool inward);
+
+/// The surface at a crossing that crossings() found.
+SurfacePoint surface_at(const Leaf& leaf, const LocalRay<double>& ray, double t, bool entering);
+TextureCoordinates texture_at(const Leaf& leaf, const SurfacePoint& local);
+
+/// A local surface point in world space, with the bound on each coordinate's error.
+struct WorldPoint {
+  Vec3d point;
+  double error;
+};
+WorldPoint to_world(const BoundedAffine& world_from_local, const Vec3d& local);
+/// The outward unit normal in world space (inverse transpose, so mirroring and shear are right).
+Vec3d normal_to_world(const Leaf& leaf, const Vec3d& local_normal);
+
+}  // namespace rayfarm

@@ -1,0 +1,48 @@
+// Rays, in world space and in a solid's local space. The parameter t is shared: a direction is transformed,
+// never renormalised, so the t of all solids are directly comparable.
+#pragma once
+#include <cstdint>
+#include <limits>
+
+#include "common/math/number.h"
+#include "common/math/vec.h"
+
+namespace rayfarm {
+
+constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
+
+/// Points origin + t * direction, t > 0.
+///
+/// A ray that starts on a surface names the leaf it leaves and the side: of that leaf the crossing at the
+/// origin is known, not computed, so no distance has to be called too small (accuracy without an epsilon).
+/// For all other leaves origin_error decides what lies at the origin. Source of the idea: self-intersection
+/// by identity in Cycles (Blender D6250), the coincident flag of OpenMC.
+struct Ray {
+  Vec3d origin{}, direction{};
+  double origin_error = 0;  // each coordinate is within this of the exact point
+  std::uint32_t left_leaf = no_leaf;
+  bool into_leaf = false;  // the ray goes to the inner side of left_leaf
+};
+
+/// A ray with what every box and leaf asks of it, derived once.
+struct RayQuery {
+  explicit RayQuery(const Ray& r)
+      : ray(r),
+        inverse{1 / r.direction.x, 1 / r.direction.y, 1 / r.direction.z},
+        origin_size(max_abs(r.origin)),
+        direction_size(max_abs(r.direction)) {}
+
+  Ray ray;
+  Vec3d inverse;                       // of the direction; infinite where it is 0
+  double origin_size, direction_size;  // largest component
+};
+
+/// A ray in a leaf's local space, with bounds on each component's error (transform chain and rounding
+/// included).
+template <class T>
+struct LocalRay {
+  Vec3<T> origin{}, direction{};
+  T origin_error{}, direction_error{};
+};
+
+}  // namespace rayfarm

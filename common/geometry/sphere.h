@@ -1,0 +1,95 @@
+// The unit sphere about the origin.
+//
+// The discriminant is taken at the line's closest approach to the centre: its error does not grow with the
+// square of the distance. Source: E. Haines, J. Guenther, T. Akenine-Moeller, Precision Improvements for
+// Ray/Sphere Intersection, Ray Tracing Gems, chapter 7, 2019.
+#pragma once
+#include "common/geometry/crossing.h"
+#include "common/geometry/ray.h"
+#include "common/geometry/surface_point.h"
+#include "common/math/deterministic.h"
+
+namespace rayfarm {
+
+/// The line's closest approach to the origin: at parameter t, point p; each with an error bound.
+template <class T>
+struct ClosestApproach {
+  T t{}, t_error{};
+  Vec3<T> p{};
+  T p_error{};     // of each coordinate, across the line
+  T inverse_dd{};  // 1 / dot(direction, direction)
+};
+
+template <class T>
+ClosestApproach<T> closest_approach(const LocalRay<T>& ray) {
+  using std::fabs;
+  const Vec3<T>&o = ray.origin, &d = ray.direction;
+  const T inverse_dd = T(1) / dot(d, d);
+  const T first = -(dot(o, d) * inverse_dd);
+  const Vec3<T> rough = o + d * first;
+  const T second = -(dot(rough, d) * inverse_dd);  // takes out what the first projection's rounding left
+  const T t = first + second;
+  const Vec3<T> p = rough + d * second;
+
+  const T size = max_abs(o), d_sum = fabs(d.x) + fabs(d.y) + fabs(d.z);
+  const T p_error = ray.origin_error + fabs(t) * ray.direction_error + T(6 * unit_roundoff) * size;
+  // t = -o.d/dd: o moves by its error, d by its own (in the product and in dd).
+  const T moved =
+      (ray.origin_error + T(6 * unit_roundoff) * size) * d_sum + T(9) * ray.direction_error * size;
+  const T t_error = moved * inverse_dd + T(6 * unit_roundoff) * fabs(t);
+  return {t, t_error, p, p_error, inverse_dd};
+}
+
+/// Where the line is inside the unit sphere, given its closest approach: sqrt(disc / dd) to both sides.
+template <class T>
+Interval<T> interval_about(const ClosestApproach<T>& c, T disc, T disc_error) {
+  using std::fabs, std::sqrt;
+  if (none(disc > -disc_error)) return empty_interval<T>();
+  // Within its error of zero the line is tangent: an in-and-out pair at the closest approach that covers
+  // itself.
+  const auto tangent = disc <= disc_error;
+  const T half = select(tangent, T(0), sqrt(greatest(disc, T(0)) * c.inverse_dd));
+  const T half_error =
+      select(tangent, sqrt(T(2) * disc_error * c.inverse_dd), disc_error * c.inverse_dd / half);
+  const T error = c.t_error + half_error + T(4 * unit_roundoff) * (fabs(c.t) + half);
+  return {bounded(c.t - half, error), bounded(c.t + half, error)};
+}
+
+template <class T>
+Interval<T> sphere_interval(const LocalRay<T>& ray) {
+  using std::fabs;
+  const ClosestApproach<T> c = closest_approach(ray);
+  const T pp = dot(c.p, c.p);
+  const T p_sum = fabs(c.p.x) + fabs(c.p.y) + fabs(c.p.z);
+  const T disc_error =
+      T(2) * p_sum * c.p_error + T(3) * c.p_error * c.p_error + T(4 * unit_roundoff) * (T(1) + pp);
+  return interval_about(c, T(1) - pp, disc_error);
+}
+
+/// The crossing on the far side, for a ray that starts on the sphere and goes inward: the other root is
+/// known.
+template <class T>
+Bounded<T> sphere_exit_from_surface(const LocalRay<T>& ray) {
+  const T dd = dot(ray.direction, ray.direction);
+  const T t = greatest(T(-2) * dot(ray.origin, ray.direction) / dd, T(0));
+  const ClosestApproach<T> c = closest_approach(ray);
+  return bounded(t, T(2) * c.t_error);
+}
+
+inline SurfacePoint sphere_surface(const LocalRay<double>& ray, bool entering) {
+  const ClosestApproach<double> c = closest_approach(ray);
+  const double half = std::sqrt(greatest(1 - dot(c.p, c.p), 0) * c.inverse_dd);
+  const Vec3d p = normalized(c.p + ray.direction * (entering ? -half : half));
+  return {p, p};
+}
+
+constexpr double pi = 3.14159265358979323846;
+
+/// u runs around the z axis, v from 0 at +z to 1 at -z.
+inline TextureCoordinates sphere_texture(const Vec3d& p) {
+  const double across = std::sqrt(p.x * p.x + p.y * p.y);
+  const double u = across == 0 ? 0 : deterministic::atan2(p.y, p.x) / (2 * pi) + 0.5;
+  return {u, deterministic::atan2(across, p.z) / pi};
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,28 @@
+// The torus about the z axis; a spindle torus (R < r) is the apple without the lemon.
+//
+// The ray's origin is moved to its closest approach to the centre before anything is squared; the quartic's
+// critical points (roots of a depressed cubic) cut the line into monotone pieces; a piece whose ends differ
+// in sign holds one root, found on the geometric form, not on the expanded quartic. Both ends of the line are
+// outside, so the number of crossings is even by construction. Sources: C. Yuksel, High-Performance
+// Polynomial Root Finding for Graphics, HPG 2022 (bracketing between critical points); POV-Ray's "closer"
+// origin for quartics; R. P. Brent, Algorithms for Minimization without Derivatives.
+#pragma once
+#include "common/geometry/crossing.h"
+#include "common/geometry/ray.h"
+#include "common/geometry/surface_point.h"
+#include "common/scene/scene.h"
+
+namespace rayfarm {
+
+/// The crossings ahead of the ray's origin.
+Crossings torus_crossings(const Torus& torus, const LocalRay<double>& ray);
+
+/// For a ray that starts on the torus: the crossing at the origin is known and left out.
+Crossings torus_crossings_from_surface(const Torus& torus, const LocalRay<double>& ray, bool inward);
+
+SurfacePoint torus_surface(const Torus& torus, const LocalRay<double>& ray, double t);
+
+/// u runs around the axis, v around the tube.
+TextureCoordinates torus_texture(const Torus& torus, const Vec3d& p);
+
+}  // namespace rayfarm

@@ -1,0 +1,135 @@
+// Rays against the union of all objects.
+//
+// A ray that starts outside everything meets the union's surface where it first enters an object. One that
+// starts inside an object (refraction, a camera in glass) follows the union until it has left all of them.
+#include <algorithm>
+
+#include "common/geometry/sphere.h"
+#include "common/render/world_parts.h"
+
+namespace rayfarm {
+namespace {
+
+/// An object's side at the ray's origin and its first boundary, if any.
+struct ObjectStart {
+  bool inside = false;
+  bool has_boundary = false;
+  Boundary first;
+};
+
+ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
+  const Crossings c = crossings_ahead(leaf, number, q);
+  ObjectStart start;
+  start.inside = c.starts_inside;
+  bool inside = c.starts_inside;
+  // Crossings that overlap are one event; an even number of them changes nothing.
+  for (int i = 0; i < c.count;) {
+    const Crossing& first = c.at[static_cast<std::size_t>(i)];
+    double hi = first.hi();
+    int last = i + 1;
+    while (last < c.count && c.at[static_cast<std::size_t>(last)].lo() <= hi)
+      hi = greatest(hi, c.at[static_cast<std::size_t>(last++)].hi());
+    if ((last - i) % 2 == 1) {
+      start.has_boundary = true;
+      start.first = {first.t, first.error, number, !inside, !inside};
+      return start;
+    }
+    i = last;
+  }
+  return start;
+}
+
+ObjectStart start_of(const World::Parts& w, std::uint32_t object, const RayQuery& q, double t_max,
+                     WorldWorkspace& ws) {
+  const std::span<const CsgItem> items = w.items_of(w.objects[object]);
+  if (items.size() == 1) return start_of_leaf(w.leaves[items[0].leaf], items[0].leaf, q);
+  ObjectStart start;
+  start.inside = gather(items, w.leaves, q, t_max, ws.csg);
+  std::size_t next = 0;
+  start.has_boundary = next_boundary(items, ws.csg, next, start.first);
+  return start;
+}
+
+template <class Visit>
+void visit_objects(const World::Parts& w, const RayQuery& q, const double& t_max, Visit&& visit) {
+  for (const std::uint32_t object : w.endless_objects)
+    if (!visit(object)) return;
+  w.bvh.visit(q, t_max, [&](std::uint32_t number) { return visit(w.bounded_objects[number]); });
+}
+
+/// The boundaries of all objects in order, and which objects the ray starts in.
+void gather_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
+  ws.events.clear();
+  ws.inside.assign(w.objects.size(), false);
+  visit_objects(w, q, infinity, [&](std::uint32_t object) {
+    const std::span<const CsgItem> items = w.items_of(w.objects[object]);
+    ws.inside[object] = gather(items, w.leaves, q, infinity, ws.csg);
+    Boundary b;
+    for (std::size_t next = 0; next_boundary(items, ws.csg, next, b);)
+      ws.events.push_back({b.t - b.error, b.t + b.error, object, b});
+    return true;
+  });
+  std::sort(ws.events.begin(), ws.events.end(),
+            [](const auto& a, const auto& b) { return a.lo != b.lo ? a.lo < b.lo : a.object < b.object; });
+}
+
+std::optional<Boundary> first_of_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
+  gather_union(w, q, ws);
+  auto inside = std::count(ws.inside.begin(), ws.inside.end(), true);
+  for (std::size_t next = 0; next < ws.events.size();) {
+    const bool before = inside > 0;
+    const std::size_t first = next;
+    double hi = ws.events[first].hi;
+    std::size_t shown = first;
+    for (; next < ws.events.size() && ws.events[next].lo <= hi; ++next) {
+      const auto& e = ws.events[next];
+      hi = greatest(hi, e.hi);
+      inside += e.boundary.entering ? 1 : -1;
+      if (e.boundary.entering != before &&
+          (ws.events[shown].boundary.entering == before || e.object < ws.events[shown].object))
+        shown = next;
+    }
+    if ((inside > 0) != before) return ws.events[shown].boundary;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Boundary> first_boundary(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
+  bool starts_inside = false, found = false;
+  Boundary best{};
+  std::uint32_t best_object = 0;
+  double t_max = infinity;
+  visit_objects(w, q, t_max, [&](std::uint32_t object) {
+    const ObjectStart start = start_of(w, object, q, t_max, ws);
+    if (start.inside) {
+      starts_inside = true;
+      return false;
+    }
+    if (!start.has_boundary) return true;
+    const Boundary& b = start.first;
+    // Surfaces within each other's error are one; the object that comes first in the scene is shown.
+    const bool same = found && b.t - b.error <= best.t + best.error && best.t - best.error <= b.t + b.error;
+    if (!found || (same ? object < best_object : b.t < best.t)) {
+      found = true, best = b, best_object = object;
+      t_max = b.t + b.error;
+    }
+    return true;
+  });
+  if (starts_inside) return first_of_union(w, q, ws);
+  if (!found) return std::nullopt;
+  return best;
+}
+
+bool is_blocked(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
+  bool blocked = false;
+  visit_objects(w, q, 1.0, [&](std::uint32_t object) {
+    const ObjectStart start = start_of(w, object, q, 1.0, ws);
+    blocked = start.has_boundary && start.first.t <= 1;
+    return !blocked;
+  });
+  return blocked;
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,159 @@
+// Recursive ray tracing of one sample. Source: T. Whitted, CACM 23(6), 1980.
+//
+// Observer is told of each ray as it is traced; the default counts. A recorder of the ray tree is another
+// observer: the same code runs, and who did not ask for a record does not pay for it.
+#pragma once
+#include <span>
+#include <variant>
+
+#include "common/math/number.h"
+#include "common/render/camera_rays.h"
+#include "common/render/counters.h"
+#include "common/render/hit.h"
+#include "common/render/sampler.h"
+#include "common/render/settings.h"
+#include "common/render/shade.h"
+
+namespace rayfarm {
+
+enum class RayKind : std::uint8_t { primary, reflected, refracted };
+
+struct CountingObserver {
+  RayCounters counters;
+
+  void traced(RayKind kind, bool hit) {
+    switch (kind) {
+      case RayKind::primary:
+        ++counters.primary, counters.primary_hits += hit;
+        return;
+      case RayKind::reflected:
+        ++counters.reflected, counters.secondary_hits += hit;
+        return;
+      case RayKind::refracted:
+        ++counters.refracted, counters.secondary_hits += hit;
+        return;
+    }
+  }
+  void shadow_tested() { ++counters.shadow; }
+};
+
+/// A light as one sample sees it: an area light has become a point of its own.
+struct SampledLight {
+  bool is_ambient = false;
+  Vec3d at{}, intensity{};
+  const RectangleLight* dimmed = nullptr;
+};
+
+/// Traces samples, one after another, in one thread.
+template <class Observer>
+class Tracer {
+ public:
+  Tracer(const World& world, const RenderSettings& settings)
+      : world_(world.parts()),
+        settings_(settings),
+        camera_(world.scene().camera, {settings.width, settings.height}),
+        background_(vec(world.scene().background)) {}
+
+  /// The light along the ray through film point (x, y). light_point(i) says where on light i, as u and v.
+  template <class LightPoint>
+  Vec3d radiance(double x, double y, LightPoint&& light_point) {
+    place_lights(light_point);
+    return radiance(camera_.ray(x, y), RayKind::primary, 0, 1.0);
+  }
+
+  std::optional<Hit> first_hit(double x, double y) { return nearest_hit(camera_.ray(x, y)); }
+
+  Observer observer;
+
+ private:
+  static Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+  template <class LightPoint>
+  void place_lights(LightPoint&& light_point) {
+    lights_.clear();
+    for (std::uint32_t i = 0; i < world_.scene.lights.size(); ++i) {
+      const Light& light = world_.scene.lights[i];
+      if (const auto* ambient = std::get_if<AmbientLight>(&light)) {
+        lights_.push_back({true, {}, vec(ambient->intensity), nullptr});
+      } else if (const auto* point = std::get_if<PointLight>(&light)) {
+        lights_.push_back({false, vec(point->at), vec(point->intensity), nullptr});
+      } else {
+        const auto& r = std::get<RectangleLight>(light);
+        const Sample2D s = light_point(i);
+        lights_.push_back(
+            {false, vec(r.at) + vec(r.width) * s.u + vec(r.height) * s.v, vec(r.intensity), &r});
+      }
+    }
+  }
+
+  std::optional<Hit> nearest_hit(const Ray& ray) {
+    const RayQuery query(ray);
+    const std::optional<Boundary> boundary = first_boundary(world_, query, workspace_);
+    if (!boundary) return std::nullopt;
+    return hit_at(world_, query, *boundary);
+  }
+
+  Vec3d radiance(const Ray& ray, RayKind kind, std::uint32_t depth, double importance) {
+    const std::optional<Hit> hit = nearest_hit(ray);
+    observer.traced(kind, hit.has_value());
+    if (!hit) return background_;
+
+    const Vec3d to_viewer = -ray.direction;
+    // Grazing, the rounded cosine can have the wrong sign; the side is known from the boundary.
+    const double rounded = dot(hit->normal, to_viewer);
+    const double cos_view = hit->entering ? greatest(rounded, smallest) : least(rounded, -smallest);
+    Vec3d color = lights_.empty() ? hit->color : Vec3d{};
+    for (const SampledLight& light : lights_)
+      color += light.intensity * lit(*hit, to_viewer, cos_view, light);
+    if (depth >= settings_.max_depth) return color;
+
+    const Material& material = *hit->material;
+    if (settings_.reflections) {
+      const double weight = phong_weights(material, cos_view, hit->entering).specular;
+      if (goes_on(importance * weight))
+        color += radiance(ray_from(*hit, mirrored(to_viewer, hit->normal), hit->entering), RayKind::reflected,
+                          depth + 1, importance * weight) *
+                 weight;
+    }
+    if (settings_.refractions) {
+      const double weight = material.transmission;
+      if (goes_on(importance * weight))
+        if (const std::optional<Vec3d> direction = refracted(to_viewer, hit->normal, material.index))
+          color += radiance(ray_from(*hit, *direction, !hit->entering), RayKind::refracted, depth + 1,
+                            importance * weight) *
+                   weight;
+    }
+    return color;
+  }
+
+  /// A ray that adds nothing is not traced, whatever the limit says.
+  bool goes_on(double importance) const { return importance > 0 && importance >= settings_.min_importance; }
+
+  /// What a light sends to the viewer, as a factor of its intensity.
+  Vec3d lit(const Hit& hit, const Vec3d& to_viewer, double cos_view, const SampledLight& light) {
+    if (light.is_ambient) return phong_ambient(*hit.material, hit.color, cos_view > 0);
+    const Vec3d to_light = light.at - hit.point;
+    if (!(dot(to_light, hit.normal) > 0)) return {};
+    if (settings_.shadows) {
+      observer.shadow_tested();
+      if (is_blocked(world_, RayQuery(ray_from(hit, to_light, true)), workspace_)) return {};
+    }
+    const double distance = length(to_light);
+    const Vec3d direct =
+        phong(*hit.material, hit.color, hit.normal, to_viewer, cos_view, to_light * (1 / distance));
+    if (!light.dimmed) return direct;
+    const glm::dvec3& dim = light.dimmed->dim;
+    return direct * (1 / (dim[0] + dim[1] * distance + dim[2] * distance * distance));
+  }
+
+  static constexpr double smallest = std::numeric_limits<double>::denorm_min();
+
+  const World::Parts& world_;
+  const RenderSettings& settings_;
+  CameraRays camera_;
+  Vec3d background_;
+  std::vector<SampledLight> lights_;
+  WorldWorkspace workspace_;
+};
+
+}  // namespace rayfarm

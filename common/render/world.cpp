@@ -1,0 +1,146 @@
+#include "common/render/world.h"
+
+#include "common/render/world_parts.h"
+
+namespace rayfarm {
+namespace {
+
+Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// What a subtree inherits.
+struct Inherited {
+  BoundedAffine world_from_parent;
+  std::optional<Vec3d> color;
+  std::uint32_t material = 0;
+  std::vector<Texture> textures;
+};
+
+/// Walks the scene's tree once and fills the flat arrays.
+class Builder {
+ public:
+  explicit Builder(World::Parts& parts) : parts_(parts) {}
+
+  void build() {
+    Inherited top;
+    top.material = static_cast<std::uint32_t>(parts_.scene.materials.size());
+    add_objects(0, top);
+    parts_.placements.shrink_to_fit();
+    sort_objects();
+  }
+
+ private:
+  const Node& node(std::uint32_t i) const { return parts_.scene.nodes[i]; }
+
+  Inherited inherited_by(std::uint32_t number, const Inherited& from_above) const {
+    const Node& n = node(number);
+    Inherited result{from_above.world_from_parent * bounded(n.parent_from_node), from_above.color,
+                     n.material.value_or(from_above.material), from_above.textures};
+    if (n.color) result.color = vec(*n.color);
+    result.textures.insert(result.textures.end(), n.textures.begin(), n.textures.end());
+    return result;
+  }
+
+  /// Splits unions into their parts; anything else becomes an object. Returns the node after the subtree.
+  std::uint32_t add_objects(std::uint32_t number, const Inherited& above) {
+    const Operation* operation = std::get_if<Operation>(&node(number).content);
+    if (operation && operation->op == CsgOp::unite) {
+      const Inherited inherited = inherited_by(number, above);
+      std::uint32_t child = number + 1;
+      for (std::uint32_t i = 0; i < operation->children; ++i) child = add_objects(child, inherited);
+      return child;
+    }
+    const auto first = static_cast<std::uint32_t>(parts_.items.size());
+    const std::uint32_t next = add_item(number, above, first, 0);
+    cut(first);
+    parts_.objects.push_back({first, static_cast<std::uint32_t>(parts_.items.size()) - first});
+    return next;
+  }
+
+  std::uint32_t add_item(std::uint32_t number, const Inherited& above, std::uint32_t object,
+                         std::uint32_t parent) {
+    const Inherited inherited = inherited_by(number, above);
+    const auto index = static_cast<std::uint32_t>(parts_.items.size());
+    parts_.items.emplace_back().parent = parent;
+    std::uint32_t next = number + 1;
+    if (const Operation* operation = std::get_if<Operation>(&node(number).content)) {
+      parts_.items[index].op = operation->op;
+      parts_.items[index].children = operation->children;
+      Box box;
+      for (std::uint32_t i = 0; i < operation->children; ++i) {
+        const auto child = static_cast<std::uint32_t>(parts_.items.size());
+        next = add_item(next, inherited, object, index - object);
+        parts_.items[child].weight = operation->op == CsgOp::subtract && i > 0 ? 2 : 1;
+        box = box_after(operation->op, i, box, parts_.items[child].box);
+      }
+      parts_.items[index].box = box;
+    } else {
+      const Solid& solid = std::get<Solid>(node(number).content);
+      parts_.items[index].leaf = add_leaf(solid, inherited);
+      parts_.items[index].box = bounds_of(solid, inherited.world_from_parent);
+    }
+    parts_.items[index].next = static_cast<std::uint32_t>(parts_.items.size()) - object;
+    return next;
+  }
+
+  static Box box_after(CsgOp op, std::uint32_t child, const Box& so_far, const Box& box) {
+    if (child == 0) return box;
+    if (op == CsgOp::intersect) return overlap(so_far, box);
+    return op == CsgOp::subtract ? so_far : hull(so_far, box);
+  }
+
+  std::uint32_t add_leaf(const Solid& solid, const Inherited& inherited) {
+    parts_.leaves.push_back(make_leaf(solid, inherited.world_from_parent));
+    parts_.placements.push_back(inherited.world_from_parent);
+    LeafSurface surface;
+    surface.material = inherited.material;
+    surface.color = inherited.color.value_or(vec(parts_.materials[inherited.material].color));
+    surface.first_texture = static_cast<std::uint32_t>(parts_.textures.size());
+    surface.textures = static_cast<std::uint32_t>(inherited.textures.size());
+    parts_.textures.insert(parts_.textures.end(), inherited.textures.begin(), inherited.textures.end());
+    parts_.surfaces.push_back(surface);
+    return static_cast<std::uint32_t>(parts_.leaves.size() - 1);
+  }
+
+  /// What lies outside the box of what it is combined with cannot matter.
+  void cut(std::uint32_t first) {
+    for (std::size_t i = first + 1; i < parts_.items.size(); ++i)
+      parts_.items[i].box = overlap(parts_.items[i].box, parts_.items[first + parts_.items[i].parent].box);
+  }
+
+  void sort_objects() {
+    std::vector<Box> boxes;
+    for (std::uint32_t i = 0; i < parts_.objects.size(); ++i) {
+      const Box& box = parts_.items[parts_.objects[i].first_item].box;
+      if (box.is_empty()) continue;  // never to be seen
+      if (!box.is_bounded()) {
+        parts_.endless_objects.push_back(i);
+        continue;
+      }
+      parts_.bounded_objects.push_back(i);
+      boxes.push_back(box);
+    }
+    parts_.bvh = Bvh(boxes);
+  }
+
+  World::Parts& parts_;
+};
+
+std::unique_ptr<const World::Parts> built(Scene scene) {
+  auto parts = std::make_unique<World::Parts>();
+  parts->scene = std::move(scene);
+  parts->materials = parts->scene.materials;
+  parts->materials.emplace_back();
+  Builder(*parts).build();
+  return parts;
+}
+
+}  // namespace
+
+World::World(Scene scene) : parts_(built(std::move(scene))) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+const Scene& World::scene() const { return parts_->scene; }
+
+}  // namespace rayfarm

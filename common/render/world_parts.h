@@ -1,0 +1,64 @@
+// The inside of a World, for the tracer: flat arrays, in the order of the scene's tree.
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/geometry/bvh.h"
+#include "common/geometry/csg.h"
+#include "common/geometry/leaf.h"
+#include "common/render/world.h"
+
+namespace rayfarm {
+
+/// How a leaf looks, all inheritance resolved.
+struct LeafSurface {
+  Vec3d color{};
+  std::uint32_t material = 0;                     // index into Parts::materials
+  std::uint32_t first_texture = 0, textures = 0;  // range of Parts::textures, those of ancestors first
+};
+
+/// A subtree of the scene that has no union above it but unions: what a ray hits first is the first of all
+/// objects'.
+struct WorldObject {
+  std::uint32_t first_item = 0, item_count = 0;  // range of Parts::items
+};
+
+struct World::Parts {
+  Scene scene;
+  std::vector<Leaf> leaves;
+  std::vector<BoundedAffine> placements;  // world_from_local, per leaf
+  std::vector<LeafSurface> surfaces;      // per leaf
+  std::vector<Material> materials;        // the scene's, then the default one
+  std::vector<Texture> textures;
+  std::vector<CsgItem> items;
+  std::vector<WorldObject> objects;
+  std::vector<std::uint32_t> endless_objects;  // whose bounds are infinite: tried for every ray
+  std::vector<std::uint32_t> bounded_objects;  // what the hierarchy's numbers stand for
+  Bvh bvh;                                     // over bounded_objects
+
+  std::span<const CsgItem> items_of(const WorldObject& object) const {
+    return {items.data() + object.first_item, object.item_count};
+  }
+};
+
+/// Memory for one thread's rays.
+struct WorldWorkspace {
+  struct UnionEvent {
+    double lo, hi;
+    std::uint32_t object;
+    Boundary boundary;
+  };
+  CsgWorkspace csg;
+  std::vector<UnionEvent> events;
+  std::vector<bool> inside;  // per object
+};
+
+/// The first boundary of the scene's union ahead of the ray.
+std::optional<Boundary> first_boundary(const World::Parts& world, const RayQuery& ray,
+                                       WorldWorkspace& workspace);
+
+/// Whether anything stands at 0 < t <= 1 of a ray that starts outside all material.
+bool is_blocked(const World::Parts& world, const RayQuery& ray, WorldWorkspace& workspace);
+
+}  // namespace rayfarm
