@@ -228,9 +228,11 @@ SurfacePoint torus_surface(const Torus& torus, const LocalRay<double>& ray, doub
 }
 
 TextureCoordinates torus_texture(const Torus& torus, const Vec3d& p) {
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
+  // A point of a spindle torus' inner skin lies on the tube whose centre is across the axis.
+  const double rho = std::sqrt(p.x * p.x + p.y * p.y), near = rho - torus.R, across = -(rho + torus.R);
+  const auto off_tube = [&](double s) { return std::fabs(s * s + p.z * p.z - torus.r * torus.r); };
   return {deterministic::atan2(p.y, p.x) / (2 * pi) + 0.5,
-          deterministic::atan2(rho - torus.R, p.z) / (2 * pi) + 0.5};
+          deterministic::atan2(off_tube(near) <= off_tube(across) ? near : across, p.z) / (2 * pi) + 0.5};
 }
 
 }  // namespace rayfarm
