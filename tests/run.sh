@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Runs every test: installs what is missing, builds with warnings as errors, runs ctest, then builds for other CPU
+# levels and compares their pictures byte by byte. The last line sums up; the exit code is 0 only if all is well.
+set -uo pipefail
+top=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+build=$top/build/tests
+
+"$top/deploy/setup.sh" || exit 1
+"$top/deploy/build.sh" "$build" -DRAYFARM_WERROR=ON || { echo "tests/run.sh: FAILED, it does not build"; exit 1; }
+
+ctest --test-dir "$build" -j "$(nproc)" --output-on-failure 2>&1 | tee "$build/ctest.log"
+ctest_code=${PIPESTATUS[0]}
+tests=$(grep -E '^[0-9]+% tests passed' "$build/ctest.log" | tail -n 1)
+
+builds=$("$top/tests/builds.sh" "$build" | tee /dev/stderr | tail -n 1; exit "${PIPESTATUS[0]}")
+builds_code=$?
+
+if [ "$ctest_code" = 0 ] && [ "$builds_code" = 0 ]; then verdict=PASSED; else verdict=FAILED; fi
+echo "tests/run.sh: $verdict; ${tests:-no test ran}; $builds"
+[ $verdict = PASSED ]
