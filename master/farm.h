@@ -35,7 +35,7 @@ enum class WorkerKind : std::uint8_t {
   remote,  // whole tiles at stride 1, just the passes not there yet
 };
 struct WorkerInfo {
-  std::string name, address, cpu, version;
+  std::string name{}, address{}, cpu{}, version{};
   std::uint32_t threads = 1;
   WorkerKind kind = WorkerKind::remote;
 };

@@ -6,7 +6,8 @@
 namespace rayfarm {
 namespace {
 
-constexpr double memory = 0.9;  // of a delivery when the next one comes: half is forgotten after seven
+constexpr double memory = 0.9;        // of a delivery when the next one comes: half is forgotten after seven
+constexpr double most_surprise = 10;  // times faster or slower than known: a PC that slept is not slow
 constexpr std::chrono::microseconds shortest_delivery{1};  // so that nobody is infinitely fast
 constexpr std::chrono::seconds between_marks{1};
 constexpr std::size_t window_marks = 10;
@@ -16,8 +17,12 @@ double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).co
 }  // namespace
 
 void Speed::add(std::uint64_t samples, FarmTime taken) {
-  samples_ = memory * samples_ + static_cast<double>(samples);
-  seconds_ = memory * seconds_ + seconds_of(std::max<FarmTime>(taken, shortest_delivery));
+  const double amount = static_cast<double>(samples);
+  double seconds = seconds_of(std::max<FarmTime>(taken, shortest_delivery));
+  if (const double known = samples_per_second(); known > 0)
+    seconds = std::clamp(seconds, amount / known / most_surprise, amount / known * most_surprise);
+  samples_ = memory * samples_ + amount;
+  seconds_ = memory * seconds_ + seconds;
 }
 
 void Pace::restart(FarmTime now, std::uint64_t pixels_done) {

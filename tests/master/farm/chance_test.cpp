@@ -1,0 +1,248 @@
+// The farm under chance: workers join, leave, lie, answer late and twice; jobs are paused, resumed,
+// cancelled, reordered. After every step the book kept by hand must agree with the rules; in the end with the
+// pictures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "tests/master/farm/fake_worker.h"
+
+namespace rayfarm {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Chaos {
+ public:
+  explicit Chaos(unsigned seed) : random_(seed) {}
+
+  void run(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      now_ += std::chrono::milliseconds(chance(40));
+      step();
+      check_leases();
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+
+  /// Everything that is still wanted gets done, by one new worker who just works.
+  void finish() {
+    for (const auto& [id, size] : sizes_) farm_.resume(id, now_);
+    while (!workers_.empty()) leave(0);
+    FakeWorker last(farm_, {.name = "last", .threads = 4}, now_);
+    last.finish_all(now_);
+    for (const auto& [id, size] : sizes_) {
+      const JobView job = farm_.job(id, now_).value();
+      if (cancelled_.contains(id)) {
+        EXPECT_EQ(job.state, JobState::cancelled);
+        continue;
+      }
+      ASSERT_EQ(job.state, JobState::done);
+      EXPECT_EQ(farm_.film(id)->rgb(), made_up_picture(id, size));
+      EXPECT_EQ(job.counters, made_up_counters(size)) << "a pass was committed twice, or not at all";
+    }
+  }
+
+ private:
+  std::size_t chance(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+
+  void step() {
+    switch (chance(20)) {
+      case 0:
+        return join();
+      case 1:
+        return workers_.size() > 1 ? leave(chance(workers_.size())) : join();
+      case 2:
+        return submit();
+      case 3:
+        return command_a_job();
+      case 4:
+        return drain_or_undrain();
+      case 5:
+        return answer_late();
+      case 6:
+        return lie();
+      case 7:
+        return give_back();
+      default:
+        return work();
+    }
+  }
+
+  void join() {
+    if (workers_.size() >= 8) return;
+    const auto kind = chance(3) == 0 ? WorkerKind::local : WorkerKind::remote;
+    const auto threads = static_cast<std::uint32_t>(1 + chance(4));
+    workers_.emplace_back(farm_, WorkerInfo{.name = "pc", .threads = threads, .kind = kind}, now_);
+  }
+
+  void leave(std::size_t who) {
+    remember(workers_[who]);
+    farm_.remove_worker(workers_[who].id(), "gone", now_);
+    workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(who));
+  }
+
+  void submit() {
+    if (sizes_.size() >= 12) return;
+    const Size size{static_cast<std::uint32_t>(1 + chance(400)), static_cast<std::uint32_t>(1 + chance(200))};
+    JobSpec spec = job_of(size, "job", "scene " + std::to_string(chance(3)));
+    spec.priority = static_cast<int>(chance(5));
+    spec.hold = chance(5) == 0;
+    sizes_[farm_.submit(spec, now_)] = size;
+  }
+
+  void command_a_job() {
+    if (sizes_.empty()) return;
+    const JobId job = std::next(sizes_.begin(), static_cast<std::ptrdiff_t>(chance(sizes_.size())))->first;
+    for (const FakeWorker& worker : workers_) remember(worker);
+    switch (chance(8)) {
+      case 0:
+        if (farm_.cancel(job, now_)) cancelled_.insert(job);
+        return;
+      case 1:
+      case 2:
+        farm_.pause(job, now_);
+        return;
+      case 3:
+      case 4:
+      case 5:
+        farm_.resume(job, now_);
+        return;
+      default:
+        farm_.set_priority(job, static_cast<int>(chance(5)), now_);
+        return;
+    }
+  }
+
+  void drain_or_undrain() {
+    if (workers_.empty()) return;
+    const FakeWorker& worker = workers_[chance(workers_.size())];
+    remember(worker);
+    if (chance(3) == 0)
+      farm_.drain(worker.name(), now_);
+    else
+      farm_.undrain(worker.name(), now_);
+  }
+
+  /// A result for a lease that was once somebody's: revoked, already answered, or still held by another.
+  void answer_late() {
+    if (workers_.empty() || once_held_.empty()) return;
+    const Assignment& old = once_held_[chance(once_held_.size())];
+    const FakeWorker& worker = workers_[chance(workers_.size())];
+    if (std::ranges::count(worker.held(), old.lease, &Assignment::lease) != 0) return;
+    farm_.receive(worker.id(), rendered(old, sizes_.at(old.job)), now_);
+  }
+
+  void lie() {
+    const std::size_t who = worker_with_work();
+    if (who == workers_.size()) return;
+    Result result = rendered(workers_[who].held()[0], sizes_.at(workers_[who].held()[0].job));
+    switch (chance(3)) {
+      case 0:
+        result.tile += 1;
+        break;
+      case 1:
+        result.images.pop_back();
+        break;
+      default:
+        result.images[0].rgb.pop_back();
+        break;
+    }
+    EXPECT_THROW(farm_.receive(workers_[who].id(), result, now_), WorkerError);
+    workers_[who].drop(result.lease);
+    leave(who);
+  }
+
+  void give_back() {
+    const std::size_t who = worker_with_work();
+    if (who == workers_.size()) return;
+    FakeWorker& worker = workers_[who];
+    const Assignment given = worker.held()[chance(worker.held().size())];
+    const bool is_refusal = chance(2) == 0;
+    // A job that everybody refuses fails, by right; here somebody always can.
+    if (is_refusal && farm_.film(given.job)->pixels_done() == 0) return;
+    remember(worker);
+    worker.drop(given.lease);
+    if (is_refusal) refused_.insert({worker.id(), given.job});
+    farm_.receive(worker.id(), GiveBack{{given.lease}, is_refusal ? "out of memory" : ""}, now_);
+    if (!is_refusal) leave(who);
+  }
+
+  void work() {
+    const std::size_t who = worker_with_work();
+    if (who == workers_.size()) return;
+    once_held_.push_back(workers_[who].held()[0]);
+    workers_[who].finish_one(now_, 0.001 * static_cast<double>(chance(30)));
+  }
+
+  std::size_t worker_with_work() {
+    std::vector<std::size_t> busy;
+    for (std::size_t i = 0; i < workers_.size(); ++i)
+      if (!workers_[i].held().empty()) busy.push_back(i);
+    return busy.empty() ? workers_.size() : busy[chance(busy.size())];
+  }
+
+  void remember(const FakeWorker& worker) {
+    once_held_.insert(once_held_.end(), worker.held().begin(), worker.held().end());
+  }
+
+  /// What the workers were told they hold is what the farm says they hold; no pass is leased twice or leased
+  /// when it is done; nobody who may work is idle while something waits.
+  void check_leases() {
+    std::set<std::tuple<JobId, std::uint32_t, int>> leased;
+    std::map<JobId, std::uint64_t> pixels_leased;
+    const std::vector<WorkerView> views = farm_.workers();
+    ASSERT_EQ(views.size(), workers_.size());
+    for (std::size_t i = 0; i < workers_.size(); ++i) {
+      ASSERT_EQ(views[i].id, workers_[i].id());
+      ASSERT_EQ(views[i].leases, workers_[i].held().size());
+      if (views[i].state == WorkerState::drained) {
+        ASSERT_EQ(views[i].leases, 0u);
+      }
+      for (const Assignment& a : workers_[i].held())
+        for (int pass = 0; pass < pass_count; ++pass) {
+          if (!(a.passes & 1u << pass)) continue;
+          ASSERT_TRUE(leased.insert({a.job, a.tile, pass}).second) << "leased twice";
+          ASSERT_FALSE(farm_.film(a.job)->passes_of(a.tile) & 1u << pass) << "leased though done";
+          pixels_leased[a.job] += pixel_count(tile_at(sizes_.at(a.job), a.tile), pass);
+        }
+    }
+    for (const JobView& job : farm_.jobs(now_)) {
+      const bool is_open = job.state == JobState::running || job.state == JobState::waiting;
+      ASSERT_TRUE(pixels_leased[job.id] == 0 || is_open) << "leased though not running";
+      if (!is_open || job.pixels_done + pixels_leased[job.id] == job.pixels_total) continue;
+      for (const WorkerView& worker : views) {
+        const bool may_work = worker.state != WorkerState::drained && !refused_.contains({worker.id, job.id});
+        ASSERT_TRUE(worker.leases > 0 || !may_work) << "idle though something waits";
+      }
+    }
+    for (const FarmEvent& event : farm_.take_events())
+      ASSERT_EQ(event.text.find("differ"), std::string::npos) << event.text;
+  }
+
+  std::mt19937 random_;
+  Farm farm_;
+  FarmTime now_{};
+  std::vector<FakeWorker> workers_;
+  std::map<JobId, Size> sizes_;
+  std::set<JobId> cancelled_;
+  std::set<std::pair<WorkerId, JobId>> refused_;
+  std::vector<Assignment> once_held_;
+};
+
+TEST(Farm, CommitsEachPassOfEachTileExactlyOnceWhateverHappens) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Chaos chaos(seed);
+    chaos.run(1500);
+    chaos.finish();
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace rayfarm

@@ -1,0 +1,46 @@
+// A worker without a network: it records what the farm sends, and renders a made-up picture.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "master/farm.h"
+
+namespace rayfarm {
+
+/// What the fake workers "render": a different value for each job, pixel and channel.
+float made_up_value(JobId job, std::uint32_t x, std::uint32_t y, int channel);
+/// What an honest worker answers to an assignment.
+Result rendered(const Assignment& assignment, Size film, double seconds = 1);
+/// The whole picture, as the farm's film must be in the end.
+std::vector<float> made_up_picture(JobId job, Size film);
+/// What the counters of a whole picture must sum up to.
+RayCounters made_up_counters(Size film);
+
+JobSpec job_of(Size film, std::string name = "picture", std::string scene_hash = "scene");
+
+class FakeWorker {
+ public:
+  FakeWorker(Farm& farm, WorkerInfo info, FarmTime now = {});
+
+  WorkerId id() const { return id_; }
+  /// What it was sent since the last call, but Assignment and Revoke, which held() reflects.
+  std::vector<ToWorker> take_messages();
+  /// The assignments it holds, in the order in which they came.
+  const std::vector<Assignment>& held() const;
+  /// Renders and hands in its first assignment. The farm believes no more seconds than went by.
+  void finish_one(FarmTime now = {}, double seconds = 1);
+  void finish_all(FarmTime now = {});
+  /// The lease is no longer held; nothing is said to the farm.
+  void drop(LeaseId lease);
+  std::string name() const;
+
+ private:
+  struct Desk;  // what the farm's messages change; it outlives the worker, as the farm may still send
+  Farm* farm_;
+  std::shared_ptr<Desk> desk_;
+  WorkerId id_{};
+};
+
+}  // namespace rayfarm
