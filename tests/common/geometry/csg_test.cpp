@@ -1,0 +1,184 @@
+// CSG by its law: inside(a op b) == op(inside a, inside b), along random rays of random trees; and what must
+// vanish.
+#include <gtest/gtest.h>
+
+#include "common/render/world_parts.h"
+#include "tests/common/geometry/rays.h"
+#include "tests/support/random_scene.h"
+
+namespace rayfarm {
+namespace {
+
+Node leaf(const Solid& solid, const Affine& map = {}) { return {solid, map, {}, {}, {}, {}}; }
+Node inner(CsgOp op, std::uint32_t children) { return {Operation{op, children}, {}, {}, {}, {}, {}}; }
+
+/// Local coordinates of the point in each leaf, and whether it is inside.
+class Membership {
+ public:
+  explicit Membership(const World::Parts& world) : world_(world) {}
+
+  bool of(const WorldObject& object, const Vec3d& p) const { return of(world_.items_of(object), 0, p); }
+
+ private:
+  bool of(std::span<const CsgItem> items, std::uint32_t i, const Vec3d& p) const {
+    const CsgItem& item = items[i];
+    if (item.leaf != no_leaf) return in_leaf(world_.leaves[item.leaf], p);
+    bool value = false;
+    std::uint32_t child = i + 1;
+    for (std::uint32_t k = 0; k < item.children; ++k, child = items[child].next) {
+      const bool c = of(items, child, p);
+      if (k == 0)
+        value = c;
+      else if (item.op == CsgOp::unite)
+        value = value || c;
+      else if (item.op == CsgOp::intersect)
+        value = value && c;
+      else if (item.op == CsgOp::subtract)
+        value = value && !c;
+      else
+        value = value != c;
+    }
+    return value;
+  }
+
+  static bool in_leaf(const Leaf& leaf, const Vec3d& world) {
+    // Any ray from the point knows the side at its origin.
+    Ray r;
+    r.origin = world, r.direction = {0.5, 0.6, 0.7};
+    return crossings(leaf, to_local(leaf, RayQuery(r))).starts_inside;
+  }
+
+  const World::Parts& world_;
+};
+
+TEST(Csg, ARayIsInsideAnObjectWhereItsPointsAre) {
+  RandomRays random(11);
+  int checked = 0;
+  for (std::uint64_t seed = 1000; seed < 1100; ++seed) {
+    const World world(random_scene(seed));
+    const Membership membership(world.parts());
+    CsgWorkspace ws;
+    for (const WorldObject& object : world.parts().objects) {
+      const auto items = world.parts().items_of(object);
+      for (int i = 0; i < 50; ++i) {
+        const Ray r = random.towards_box(8, 2);
+        bool inside = gather(items, world.parts().leaves, RayQuery(r), infinity, ws);
+        double from = 0;
+        Boundary b;
+        for (std::size_t next = 0;;) {
+          const bool more = next_boundary(items, ws, next, b);
+          const double to = more ? b.t : from + 1;
+          if (to - from > 1e-6) {
+            ASSERT_EQ(membership.of(object, r.origin + r.direction * (0.5 * (from + to))), inside) << seed;
+            ++checked;
+          }
+          if (!more) break;
+          ASSERT_EQ(b.entering, !inside);
+          inside = b.entering, from = to;
+        }
+      }
+    }
+  }
+  EXPECT_GT(checked, 5'000);
+}
+
+std::vector<Solid> all_solids() {
+  return {Sphere{}, Cube{}, Cylinder{-0.5, 0.75}, Torus{1, 0.25}, Torus{0.5, 0.8}, Plane{}};
+}
+
+/// Two chains of transforms that are the same in exact arithmetic.
+std::pair<Affine, Affine> twin_chains(RandomRays& random) {
+  const double a = random.uniform(-180, 180), b = random.uniform(-180, 180);
+  const glm::dvec3 axis{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1)};
+  const glm::dvec3 move{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)};
+  const Affine one = translation(move) * rotation_deg(axis, a + b);
+  const Affine two = translation(move) * rotation_deg(axis, a) * rotation_deg(axis, b);
+  return {one, two};
+}
+
+int boundaries(const World& world, const Ray& r, CsgWorkspace& ws) {
+  int count = 0;
+  for (const WorldObject& object : world.parts().objects) {
+    const auto items = world.parts().items_of(object);
+    gather(items, world.parts().leaves, RayQuery(r), infinity, ws);
+    Boundary b;
+    for (std::size_t next = 0; next_boundary(items, ws, next, b);) ++count;
+  }
+  return count;
+}
+
+TEST(Csg, ASolidMinusItselfIsNothingWhateverItsTransforms) {
+  RandomRays random(12);
+  CsgWorkspace ws;
+  for (const CsgOp op : {CsgOp::exclusive_or, CsgOp::subtract})
+    for (const Solid& solid : all_solids())
+      for (int scene_number = 0; scene_number < 20; ++scene_number) {
+        const auto [one, two] = twin_chains(random);
+        Scene scene;
+        scene.nodes = {inner(op, 2), leaf(solid, one), leaf(solid, two)};
+        const World world(scene);
+        for (int i = 0; i < 2'000; ++i) {
+          Ray r = random.towards_box(10, 3);
+          if (i % 2) {  // aimed at the solid
+            const glm::dvec3 c = one.offset;
+            r.direction = normalized(Vec3d{c.x, c.y, c.z} + random.in_box(1) - r.origin);
+          }
+          ASSERT_EQ(boundaries(world, r, ws), 0)
+              << "solid " << solid.index() << " op " << static_cast<int>(op);
+        }
+      }
+}
+
+TEST(Csg, ASharedFaceLeavesNoSkin) {
+  // A box with its upper half taken away: the cut goes exactly through faces of the rest.
+  RandomRays random(13);
+  CsgWorkspace ws;
+  for (int scene_number = 0; scene_number < 50; ++scene_number) {
+    const Affine turn = rotation_deg({1, 1, 0.3}, random.uniform(0, 360));
+    Scene scene;
+    scene.nodes = {inner(CsgOp::subtract, 2), leaf(Cube{}, turn),
+                   leaf(Cube{}, turn * translation({0, 0.5, 0}) * scaling({1, 0.5, 1}))};
+    scene.nodes[0].parent_from_node = translation({-0.5, -0.5, -0.5});
+    const World cut(scene);
+    scene.nodes = {leaf(Cube{}, translation({-0.5, -0.5, -0.5}) * turn * scaling({1, 0.5, 1}))};
+    const World whole(scene);
+    for (int i = 0; i < 2'000; ++i) {
+      const Ray r = random.towards_box(6, 0.8);
+      ASSERT_EQ(boundaries(cut, r, ws), boundaries(whole, r, ws));
+    }
+  }
+}
+
+TEST(Csg, StackedBoxesAreOneFromInside) {
+  Scene scene;
+  scene.nodes = {inner(CsgOp::unite, 2), leaf(Cube{}), leaf(Cube{}, translation({0, 1, 0}))};
+  const World world(scene);
+  WorldWorkspace ws;
+  RandomRays random(14);
+  for (int i = 0; i < 5'000; ++i) {
+    Ray r;
+    r.origin = {random.uniform(0.1, 0.9), 0.5, random.uniform(0.1, 0.9)};
+    r.direction = normalized(Vec3d{random.uniform(-0.05, 0.05), 1, random.uniform(-0.05, 0.05)});
+    const auto b = first_boundary(world.parts(), RayQuery(r), ws);
+    ASSERT_TRUE(b);
+    ASSERT_NEAR((r.origin + r.direction * b->t).y, 2, 1e-12);
+    ASSERT_FALSE(b->entering);
+  }
+}
+
+TEST(Csg, TwoHalfSpacesThatCoverTheLineLeaveNoBoundary) {
+  Scene scene;
+  scene.nodes = {inner(CsgOp::exclusive_or, 2), leaf(Plane{}), leaf(Plane{}, rotation_deg(0, 180))};
+  const World world(scene);
+  CsgWorkspace ws;
+  RandomRays random(15);
+  for (int i = 0; i < 1'000; ++i) {
+    const Ray r = random.towards_box(5, 5);
+    ASSERT_EQ(boundaries(world, r, ws), 0);
+    ASSERT_TRUE(gather(world.parts().items_of(world.parts().objects[0]), world.parts().leaves, RayQuery(r),
+                       infinity, ws));
+  }
+}
+
+}  // namespace
+}  // namespace rayfarm
