@@ -1,0 +1,34 @@
+// The HTTP API without sockets: what a request asks of the farm, and the answer. openapi.json describes it.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/http/farm_door.h"
+#include "master/http/guard.h"
+
+namespace rayfarm {
+
+struct ApiRoute {
+  std::string method, path;  // "/api/v1/jobs/{id}"
+};
+std::vector<ApiRoute> api_routes();
+
+/// The largest body, in bytes, that this request may bring.
+std::uint64_t body_limit(const ApiRequest& request);
+
+/// `?after=REVISION&wait=SECONDS` on jobs and on a job: the answer may wait until the farm's revision is
+/// another one.
+struct NewsWait {
+  std::uint64_t after = 0;
+  std::chrono::seconds longest{0};
+};
+std::optional<NewsWait> news_wait(const ApiRequest& request);
+
+/// Never throws for what a request can bring: errors are answers. May take long (pictures): not for the I/O
+/// thread.
+ApiResponse answer(const ApiRequest& request, const FarmDoor& farm);
+
+}  // namespace rayfarm

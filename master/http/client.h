@@ -1,0 +1,38 @@
+// A small HTTP client for the command: one request, one reply, blocking.
+#pragma once
+#include <chrono>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace rayfarm {
+
+/// Nobody answers there, or the answer is no HTTP. The message names the address.
+struct MasterUnreachable : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// The master was reached but the deadline passed.
+struct RequestTimedOut : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+struct RequestCancelled : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct HttpRequest {
+  std::string method = "GET";
+  std::string url;     // of the master: http://HOST[:PORT]
+  std::string target;  // "/api/v1/jobs"
+  std::string body;    // JSON; empty: none
+  std::chrono::seconds patience{60};
+  std::function<bool()> cancelled = [] { return false; };  // asked about 20 times a second
+};
+struct HttpReply {
+  unsigned status = 0;
+  std::string body;
+};
+
+/// Throws one of the errors above, and std::invalid_argument for a URL of another form.
+HttpReply send(const HttpRequest& request);
+
+}  // namespace rayfarm

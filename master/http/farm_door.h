@@ -1,0 +1,59 @@
+// How the threads of the HTTP server ask the farm, which lives on another one.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+
+#include "master/farm.h"
+
+namespace rayfarm {
+
+/// Runs the closure on the farm's thread, some time later; drops it when the master is stopping.
+using OnFarm = std::function<void(std::function<void(Farm&, FarmTime)>)>;
+
+struct FarmUnavailable : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class FarmDoor {
+ public:
+  explicit FarmDoor(OnFarm on_farm) : on_farm_(std::move(on_farm)) {}
+
+  /// Runs question(farm, now) on the farm's thread and waits for its answer. The question must own what it
+  /// uses: the wait can end first. Throws what the question throws, and FarmUnavailable after close() or 10
+  /// s.
+  template <class Question>
+  std::invoke_result_t<Question&, Farm&, FarmTime> ask(Question question) const {
+    using Answer = std::invoke_result_t<Question&, Farm&, FarmTime>;
+    const auto promise = std::make_shared<std::promise<Answer>>();
+    std::future<Answer> answer = promise->get_future();
+    on_farm_([promise, question = std::move(question)](Farm& farm, FarmTime now) mutable {
+      try {
+        promise->set_value(question(farm, now));
+      } catch (...) {
+        promise->set_exception(std::current_exception());
+      }
+    });
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    while (answer.wait_for(glance) != std::future_status::ready)
+      if (closed_ || std::chrono::steady_clock::now() > deadline)
+        throw FarmUnavailable("the master is stopping or very busy; try again");
+    return answer.get();
+  }
+
+  /// Waiting askers leave: the farm's thread may be the one that wants them gone.
+  void close() { closed_ = true; }
+
+ private:
+  static constexpr auto patience = std::chrono::seconds(10);
+  static constexpr auto glance = std::chrono::milliseconds(50);  // how late close() may be seen
+
+  OnFarm on_farm_;
+  std::atomic<bool> closed_{false};
+};
+
+}  // namespace rayfarm

@@ -1,0 +1,49 @@
+#include "master/http/farm_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "master/http/settings_json.h"
+
+namespace rayfarm {
+namespace {
+
+using nlohmann::json;
+
+double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).count(); }
+
+}  // namespace
+
+json to_json(const JobView& job, FarmTime now) {
+  return {{"id", static_cast<std::uint64_t>(job.id)},
+          {"name", job.name},
+          {"output", job.output},
+          {"state", name_of(job.state)},
+          {"message", job.message},
+          {"priority", job.priority},
+          {"scene_hash", job.scene_hash},
+          {"settings", to_json(job.settings)},
+          {"pixels_done", job.pixels_done},
+          {"pixels_total", job.pixels_total},
+          {"counters", to_json(job.counters)},
+          {"age_seconds", seconds_of(now - job.submitted)},
+          {"elapsed_seconds", seconds_of(job.elapsed)},
+          {"eta_seconds", job.eta ? json(seconds_of(*job.eta)) : json()},
+          {"tiles_given_back", job.tiles_given_back}};
+}
+
+json to_json(const WorkerView& worker, FarmTime now) {
+  return {{"name", worker.info.name},
+          {"kind", worker.info.kind == WorkerKind::local ? "local" : "remote"},
+          {"state", name_of(worker.state)},
+          {"address", worker.info.address},
+          {"cpu", worker.info.cpu},
+          {"version", worker.info.version},
+          {"threads", worker.info.threads},
+          {"leases", worker.leases},
+          {"tiles", worker.tiles},
+          {"pixels", worker.pixels},
+          {"samples_per_second", worker.samples_per_second},
+          {"age_seconds", seconds_of(now - worker.joined)}};
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,61 @@
+#include "master/http/guard.h"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace rayfarm {
+namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// "name:port", "name", "[::1]:port": without port and brackets, in small letters.
+std::string name_in(const std::string& host) {
+  if (host.starts_with('[')) return lower(host.substr(1, host.find(']') - 1));
+  return lower(host.substr(0, host.find(':')));
+}
+
+bool is_address(const std::string& name) {
+  unsigned char bytes[sizeof(in6_addr)];
+  return ::inet_pton(AF_INET, name.c_str(), bytes) == 1 || ::inet_pton(AF_INET6, name.c_str(), bytes) == 1;
+}
+
+/// A name can be made to point anywhere, an address cannot: with more than loopback listened to, any address
+/// will do.
+bool is_ours(const std::string& host, const ListenAddress& listening) {
+  const std::string name = name_in(host);
+  if (name == "localhost" || name == "127.0.0.1" || name == "::1" || name == listening.address) return true;
+  const std::string pc = lower(listening.pc_name);
+  return !listening.loopback && !pc.empty() && (is_address(name) || name == pc || name == pc + ".local");
+}
+
+bool is_json(const std::string& content_type) {
+  std::string type = lower(content_type.substr(0, content_type.find(';')));
+  type.erase(type.find_last_not_of(' ') + 1);
+  return type == "application/json";
+}
+
+}  // namespace
+
+ApiResponse error_response(unsigned status, const std::string& message) {
+  const nlohmann::json body{{"error", message}};
+  return {status, "application/json", body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+}
+
+std::optional<ApiResponse> refusal(const ApiRequest& request, const ListenAddress& listening) {
+  if (!is_ours(request.host, listening))
+    return error_response(403, "this master does not answer to the name \"" + request.host + "\"");
+  if (!request.origin.empty() && lower(request.origin) != "http://" + lower(request.host))
+    return error_response(403, "pages from " + request.origin + " may not use this master");
+  if (!request.fetch_site.empty() && request.fetch_site != "same-origin" && request.fetch_site != "none")
+    return error_response(403, "pages from elsewhere may not use this master");
+  if (request.method == "POST" && !is_json(request.content_type))
+    return error_response(415, "POST wants Content-Type: application/json");
+  return std::nullopt;
+}
+
+}  // namespace rayfarm

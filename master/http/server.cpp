@@ -1,0 +1,252 @@
+#include "master/http/server.h"
+
+#include <unistd.h>
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <charconv>
+#include <thread>
+
+#include "master/http/api.h"
+#include "master/http/submission.h"
+
+namespace rayfarm {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+using std::chrono::seconds;
+
+constexpr std::uint32_t header_limit = 8 * 1024;
+constexpr int max_connections = 128;
+constexpr auto header_patience = seconds(30);                 // also how long an idle connection is kept
+constexpr auto body_patience = seconds(60);                   // 64 MB from a slow PC of the lab
+constexpr auto write_patience = seconds(600);                 // a film of gigabytes over 100 Mbit/s
+constexpr auto news_glance = std::chrono::milliseconds(100);  // the changes of many tiles make one answer
+
+tcp::endpoint endpoint_of(const std::string& listen) {
+  const HttpError wrong("--http wants ADDRESS:PORT, as in 127.0.0.1:5412 or [::1]:5412, is " + listen);
+  const std::size_t colon = listen.rfind(':');
+  if (colon == std::string::npos) throw wrong;
+  std::string address = listen.substr(0, colon);
+  if (address.starts_with('[') && address.ends_with(']')) address = address.substr(1, address.size() - 2);
+  if (address == "localhost") address = "127.0.0.1";
+
+  std::uint16_t port = 0;
+  const char *begin = listen.data() + colon + 1, *end = listen.data() + listen.size();
+  const auto [stop, error] = std::from_chars(begin, end, port);
+  boost::system::error_code no_address;
+  const asio::ip::address parsed = asio::ip::make_address(address, no_address);
+  if (error != std::errc{} || stop != end || no_address) throw wrong;
+  return {parsed, port};
+}
+
+tcp::acceptor acceptor_at(asio::io_context& io, const HttpSettings& settings) {
+  const tcp::endpoint endpoint = endpoint_of(settings.listen);
+  if (!endpoint.address().is_loopback() && !settings.insecure)
+    throw HttpError("the HTTP API has no encryption yet, so it listens on loopback only; " + settings.listen +
+                    " needs --insecure");
+  try {
+    return tcp::acceptor(io, endpoint);
+  } catch (const boost::system::system_error& error) {
+    throw HttpError("cannot listen on " + settings.listen + ": " + error.code().message() +
+                    "; choose another address with --http");
+  }
+}
+
+std::string pc_name() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
+using RequestParser = http::request_parser<http::string_body>;
+using Response = http::response<http::string_body>;
+
+ApiRequest api_request(const RequestParser::value_type& message) {
+  const auto field = [&](std::string_view name) { return std::string(message[name]); };
+  return {std::string(message.method_string()),
+          std::string(message.target()),
+          field("Host"),
+          field("Origin"),
+          field("Sec-Fetch-Site"),
+          field("Content-Type"),
+          ""};
+}
+
+Response http_response(ApiResponse answer, const RequestParser::value_type& request, bool keep_alive) {
+  Response response(static_cast<http::status>(answer.status), request.version(), std::move(answer.body));
+  response.set(http::field::server, "rayfarm");
+  response.set(http::field::content_type, answer.content_type);
+  response.set(http::field::cache_control, "no-store");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Cross-Origin-Resource-Policy", "same-origin");
+  response.set("Content-Security-Policy",
+               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
+               "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+  response.keep_alive(keep_alive);
+  response.prepare_payload();
+  return response;
+}
+
+/// What a request that cannot be read deserves; nothing when the peer is gone or silent.
+std::optional<ApiResponse> complaint(const boost::system::error_code& error) {
+  if (error == http::error::header_limit) return error_response(431, "the header is over 8 KB");
+  if (error == http::error::body_limit) return error_response(413, "the body is too large");
+  if (error == http::error::end_of_stream || error == http::error::partial_message) return std::nullopt;
+  if (error.category() == make_error_code(http::error::bad_method).category())
+    return error_response(400, "this is no HTTP request: " + error.message());
+  return std::nullopt;
+}
+
+}  // namespace
+
+struct HttpServer::Parts {
+  Parts(const HttpSettings& settings, OnFarm on_farm)
+      : farm(std::move(on_farm)), acceptor(acceptor_at(io, settings)) {
+    const asio::ip::address address = acceptor.local_endpoint().address();
+    listening = {address.to_string(), address.is_loopback(), pc_name()};
+  }
+
+  asio::awaitable<void> accept_all();
+  asio::awaitable<void> session(beast::tcp_stream stream);
+  asio::awaitable<bool> converse(beast::tcp_stream& stream, beast::flat_buffer& buffer);
+  asio::awaitable<bool> reply(beast::tcp_stream& stream, Response response);
+  asio::awaitable<ApiResponse> respond(const ApiRequest& request);
+  asio::awaitable<void> await_news(NewsWait wait);
+  asio::awaitable<ApiResponse> answer_in_pool(const ApiRequest& request);
+  asio::awaitable<std::uint64_t> revision_in_pool();
+
+  FarmDoor farm;
+  ListenAddress listening;
+  asio::io_context io{1};
+  tcp::acceptor acceptor;
+  asio::thread_pool pool{2};  // pictures are compressed and scenes are checked here
+  int connections = 0;
+  std::jthread thread;
+};
+
+asio::awaitable<void> HttpServer::Parts::accept_all() {
+  for (;;) {
+    boost::system::error_code error;
+    tcp::socket socket = co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, error));
+    if (error) {  // out of descriptors, say: the sessions there are will end
+      asio::steady_timer pause(io, news_glance);
+      co_await pause.async_wait(asio::use_awaitable);
+      continue;
+    }
+    if (connections >= max_connections) continue;  // closes it
+    asio::co_spawn(io, session(beast::tcp_stream(std::move(socket))), asio::detached);
+  }
+}
+
+/// Ends when the peer does, on the first mistake, or when patience does.
+asio::awaitable<void> HttpServer::Parts::session(beast::tcp_stream stream) {
+  ++connections;
+  try {
+    beast::flat_buffer buffer(header_limit + 1024);
+    while (co_await converse(stream, buffer)) {}
+  } catch (const std::exception&) {  // of the peer's making; nobody is left to be told
+  }
+  boost::system::error_code ignored;
+  stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  --connections;
+}
+
+/// One request and its answer. True if another may follow.
+asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, beast::flat_buffer& buffer) {
+  RequestParser parser;
+  parser.header_limit(header_limit);
+  parser.body_limit(submission_limit);
+  boost::system::error_code error;
+
+  stream.expires_after(header_patience);
+  co_await http::async_read_header(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+  ApiRequest request = api_request(parser.get());
+  std::optional<ApiResponse> refused = error ? complaint(error) : refusal(request, listening);
+  if (error && !refused) co_return false;
+  const std::uint64_t limit = body_limit(request);
+  if (!refused && parser.content_length_remaining().value_or(0) > limit)
+    refused = complaint(http::error::body_limit);
+
+  if (!refused) {
+    parser.body_limit(limit);  // for a body in chunks, which does not tell its size
+    stream.expires_after(body_patience);
+    co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+    if (error) refused = complaint(error);
+    if (error && !refused) co_return false;
+  }
+  if (refused) {
+    Response response = http_response(std::move(*refused), parser.get(), false);
+    co_return co_await reply(stream, std::move(response));
+  }
+
+  request.body = std::move(parser.get().body());
+  ApiResponse answered = co_await respond(request);
+  Response response = http_response(std::move(answered), parser.get(), parser.get().keep_alive());
+  co_return co_await reply(stream, std::move(response));
+}
+
+asio::awaitable<bool> HttpServer::Parts::reply(beast::tcp_stream& stream, Response response) {
+  stream.expires_after(write_patience);
+  co_await http::async_write(stream, response, asio::use_awaitable);
+  co_return response.keep_alive();
+}
+
+asio::awaitable<ApiResponse> HttpServer::Parts::respond(const ApiRequest& request) {
+  const std::optional<NewsWait> wait = news_wait(request);
+  if (wait) co_await await_news(*wait);
+  asio::awaitable<ApiResponse> answering = answer_in_pool(request);
+  co_return co_await asio::co_spawn(pool, std::move(answering), asio::use_awaitable);
+}
+
+asio::awaitable<void> HttpServer::Parts::await_news(NewsWait wait) {
+  const auto end = std::chrono::steady_clock::now() + wait.longest;
+  while (std::chrono::steady_clock::now() < end) {
+    asio::awaitable<std::uint64_t> asking = revision_in_pool();
+    const std::uint64_t revision = co_await asio::co_spawn(pool, std::move(asking), asio::use_awaitable);
+    if (revision != wait.after) co_return;
+    asio::steady_timer pause(io, news_glance);
+    co_await pause.async_wait(asio::use_awaitable);
+  }
+}
+
+asio::awaitable<ApiResponse> HttpServer::Parts::answer_in_pool(const ApiRequest& request) {
+  co_return answer(request, farm);
+}
+
+asio::awaitable<std::uint64_t> HttpServer::Parts::revision_in_pool() {
+  co_return farm.ask([](Farm& f, FarmTime) { return f.revision(); });
+}
+
+HttpServer::HttpServer(const HttpSettings& settings, OnFarm on_farm)
+    : parts_(std::make_unique<Parts>(settings, std::move(on_farm))) {
+  asio::co_spawn(parts_->io, parts_->accept_all(), asio::detached);
+  parts_->thread = std::jthread([parts = parts_.get()] { parts->io.run(); });
+}
+
+HttpServer::~HttpServer() {
+  parts_->farm.close();
+  parts_->io.stop();
+  parts_->thread.join();
+  parts_->pool.join();
+}
+
+std::string HttpServer::url() const {
+  const tcp::endpoint endpoint = parts_->acceptor.local_endpoint();
+  const std::string address = endpoint.address().to_string();
+  return "http://" + (endpoint.address().is_v6() ? "[" + address + "]" : address) + ":" +
+         std::to_string(endpoint.port());
+}
+
+}  // namespace rayfarm

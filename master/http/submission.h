@@ -1,0 +1,30 @@
+// What a submitter sends, as JSON: read strictly, and never trusted.
+#pragma once
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "master/farm.h"
+
+namespace rayfarm {
+
+struct ApiError : std::runtime_error {
+  ApiError(unsigned status, const std::string& message) : std::runtime_error(message), status(status) {}
+  unsigned status;
+};
+
+constexpr std::uint64_t submission_limit = 64 * 1024 * 1024;
+
+/// Bounded in depth and number of values, so that its tree stays smaller than a small multiple of the text.
+/// Throws ApiError.
+nlohmann::json parse_json(const std::string& text);
+
+/// {scene, name, output, priority, hold, key, settings}: only the scene (base64 of encode_scene) must be
+/// there. The scene is decoded and checked. Throws ApiError, SettingsError, SceneError or CodecError.
+JobSpec job_spec(const nlohmann::json& body);
+nlohmann::json to_json(const JobSpec& spec);
+
+int priority_from_json(const nlohmann::json& value);
+
+}  // namespace rayfarm
