@@ -1,0 +1,165 @@
+#include "common/work/crew.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/answers.h"
+#include "tests/support/simple_job.h"
+
+namespace rayfarm {
+namespace {
+
+/// A crew that was told of job 1: a simple scene at 640x480, 80 tiles.
+struct CrewAtWork {
+  Answers answers;
+  Crew crew;
+
+  CrewAtWork(unsigned threads, PrepareScene prepare) : crew(threads, std::move(prepare)) {
+    crew.begin([this](ToMaster message) { answers.add(std::move(message)); });
+    start_job(1);
+  }
+  void start_job(std::uint64_t job) {
+    const SceneData scene = scene_data(simple_scene());
+    crew.take(scene);
+    crew.take(JobStart{JobId{job}, scene.hash, {}});
+  }
+  void assign(std::uint64_t lease, std::uint32_t tile) {
+    crew.take(Assignment{LeaseId{lease}, JobId{1}, tile, all_passes});
+  }
+};
+
+TEST(Crew, RendersWhatItIsAssigned) {
+  CrewAtWork at_work(2, prepare_positions);
+  for (std::uint32_t tile = 0; tile < 80; ++tile) at_work.assign(100 + tile, tile);
+  std::set<std::uint32_t> tiles;
+  for (int i = 0; i < 80; ++i) {
+    const auto result = std::get<Result>(at_work.answers.next());
+    EXPECT_EQ(result.lease, LeaseId{100 + result.tile});
+    EXPECT_EQ(result.job, JobId{1});
+    EXPECT_EQ(result.images, position_tile({}, result.tile, all_passes, [] { return false; }));
+    tiles.insert(result.tile);
+  }
+  EXPECT_EQ(tiles.size(), 80u);
+}
+
+TEST(Crew, PreparesASceneOnceForAllThreadsAndJobs) {
+  std::atomic<int> prepared{0};
+  CrewAtWork at_work(4, [&](Scene scene) {
+    ++prepared;
+    EXPECT_EQ(scene, simple_scene());
+    return prepare_positions(std::move(scene));
+  });
+  at_work.start_job(2);
+  for (std::uint32_t tile = 0; tile < 40; ++tile) {
+    at_work.assign(tile, tile);
+    at_work.crew.take(Assignment{LeaseId{100 + tile}, JobId{2}, tile, 1});
+  }
+  for (int i = 0; i < 80; ++i) EXPECT_TRUE(std::holds_alternative<Result>(at_work.answers.next()));
+  EXPECT_EQ(prepared, 1);
+}
+
+TEST(Crew, StopsARevokedTileInTheMiddleAndAnswersNothing) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.assign(1, 0);
+  at_work.assign(2, 1);
+  gate.wait_for_begun(1);
+  at_work.crew.take(Revoke{{LeaseId{1}}});
+  gate.wait_for_begun(2);  // the only thread is free again
+  EXPECT_EQ(gate.stopped(), 1);
+  at_work.assign(3, 2);
+  at_work.crew.take(Revoke{{LeaseId{3}}});
+  gate.open();
+  EXPECT_EQ(std::get<Result>(at_work.answers.next()).lease, LeaseId{2});
+  EXPECT_TRUE(at_work.answers.empty());
+}
+
+TEST(Crew, StopsTheTilesOfAJobThatEnds) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.start_job(2);
+  at_work.assign(1, 0);
+  at_work.assign(2, 1);
+  gate.wait_for_begun(1);
+  at_work.crew.take(JobEnd{JobId{1}});
+  at_work.crew.take(Revoke{{LeaseId{1}, LeaseId{2}}});
+  at_work.crew.take(Assignment{LeaseId{3}, JobId{2}, 2, 1});  // its scene is still there
+  gate.open();
+  EXPECT_EQ(std::get<Result>(at_work.answers.next()).lease, LeaseId{3});
+}
+
+TEST(Crew, GivesBackWithAReasonWhatCannotBeRendered) {
+  CrewAtWork at_work(1, [](Scene) -> TileRenderer { throw SceneError("too large for this PC"); });
+  at_work.assign(1, 0);
+  EXPECT_EQ(at_work.answers.next(), ToMaster(GiveBack{{LeaseId{1}}, "too large for this PC"}));
+  at_work.assign(2, 80);
+  EXPECT_EQ(at_work.answers.next(),
+            ToMaster(GiveBack{{LeaseId{2}}, "there is no tile 80, the picture has 80"}));
+  at_work.crew.take(Assignment{LeaseId{3}, JobId{9}, 0, 1});
+  EXPECT_EQ(at_work.answers.next(), ToMaster(GiveBack{{LeaseId{3}}, "its job was never started"}));
+  at_work.crew.take(JobStart{JobId{4}, "another hash", {}});
+  at_work.crew.take(Assignment{LeaseId{4}, JobId{4}, 0, 1});
+  EXPECT_EQ(at_work.answers.next(), ToMaster(GiveBack{{LeaseId{4}}, "its scene was never sent"}));
+}
+
+TEST(Crew, DoesNotRenderASceneWithAnotherHash) {
+  CrewAtWork at_work(1, prepare_positions);
+  SceneData scene = scene_data(simple_scene());
+  scene.hash[0] = scene.hash[0] == '0' ? '1' : '0';
+  at_work.crew.take(scene);
+  at_work.crew.take(JobStart{JobId{2}, scene.hash, {}});
+  at_work.crew.take(Assignment{LeaseId{1}, JobId{2}, 0, 1});
+  EXPECT_EQ(at_work.answers.next(),
+            ToMaster(GiveBack{{LeaseId{1}}, "the scene's bytes do not have the scene's hash"}));
+}
+
+TEST(Crew, FinishesWhatItHasBegunAfterItStopsTaking) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  for (std::uint64_t lease = 1; lease <= 3; ++lease) at_work.assign(lease, 0);
+  gate.wait_for_begun(1);
+  EXPECT_EQ(at_work.crew.stop_taking(), (std::vector{LeaseId{2}, LeaseId{3}}));
+  at_work.assign(4, 0);
+  EXPECT_EQ(at_work.answers.next(), ToMaster(GiveBack{{LeaseId{4}}, ""}));
+  gate.open();
+  EXPECT_EQ(std::get<Result>(at_work.answers.next()).lease, LeaseId{1});
+}
+
+TEST(Crew, AbandonsEverything) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.assign(1, 0);
+  at_work.assign(2, 0);
+  gate.wait_for_begun(1);
+  EXPECT_EQ(at_work.crew.abandon(), (std::vector{LeaseId{2}, LeaseId{1}}));
+  EXPECT_TRUE(at_work.answers.empty());
+}
+
+TEST(Crew, AnswersNothingToAMasterThatIsGone) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.assign(1, 0);
+  gate.wait_for_begun(1);
+  Answers other;
+  at_work.crew.begin([&](ToMaster message) { other.add(std::move(message)); });
+  at_work.start_job(1);
+  gate.open();
+  at_work.assign(1, 7);  // the same number, another lease
+  EXPECT_EQ(std::get<Result>(other.next()).tile, 7u);
+  EXPECT_TRUE(other.empty());
+  EXPECT_TRUE(at_work.answers.empty());
+}
+
+TEST(Crew, EndsInTheMiddleOfATile) {
+  Gate gate;
+  {
+    CrewAtWork at_work(2, gate.prepare());
+    for (std::uint64_t lease = 1; lease <= 9; ++lease) at_work.assign(lease, 0);
+    gate.wait_for_begun(2);
+  }
+  EXPECT_EQ(gate.stopped(), 2);
+}
+
+}  // namespace
+}  // namespace rayfarm

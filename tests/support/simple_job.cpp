@@ -1,0 +1,65 @@
+#include "tests/support/simple_job.h"
+
+#include <thread>
+
+namespace rayfarm {
+
+Scene simple_scene() {
+  Scene scene;
+  scene.nodes.push_back({Solid{Sphere{}}, {}, 0, {}, {}, "ball"});
+  scene.materials.push_back({});
+  scene.camera = PerspectiveCamera{{0, 0, -5}, {0, 0, 1}, {0, 1, 0}, 50};
+  scene.lights.push_back(AmbientLight{});
+  return scene;
+}
+
+SceneData scene_data(const Scene& scene) {
+  const auto bytes = std::make_shared<const Bytes>(encode_scene(scene));
+  return {sha256_hex(*bytes), bytes};
+}
+
+std::optional<std::vector<PassImage>> position_tile(const RenderSettings& settings, std::uint32_t tile,
+                                                    PassSet passes, const std::function<bool()>& stop) {
+  std::vector<PassImage> images;
+  for (int pass = 0; pass < pass_count; ++pass) {
+    if (!(passes >> pass & 1)) continue;
+    if (stop()) return std::nullopt;
+    PassImage image;
+    image.pass = pass;
+    for_each_pixel(tile_at({settings.width, settings.height}, tile), pass,
+                   [&](std::uint32_t x, std::uint32_t y) {
+                     image.rgb.insert(image.rgb.end(), {float(x), float(y), float(settings.seed)});
+                   });
+    image.counters.primary = image.rgb.size() / 3 * settings.spp;
+    images.push_back(std::move(image));
+  }
+  return images;
+}
+
+TileRenderer prepare_positions(Scene) { return position_tile; }
+
+PrepareScene Gate::prepare() {
+  return [this](Scene) -> TileRenderer {
+    return [this](const RenderSettings& settings, std::uint32_t tile, PassSet passes,
+                  const std::function<bool()>& stop) -> std::optional<std::vector<PassImage>> {
+      ++begun_;
+      begun_.notify_all();
+      while (!open_) {
+        if (stop()) {
+          ++stopped_;
+          return std::nullopt;
+        }
+        std::this_thread::yield();
+      }
+      return position_tile(settings, tile, passes, stop);
+    };
+  };
+}
+
+void Gate::wait_for_begun(int tiles) {
+  for (int now = begun_; now < tiles; now = begun_) begun_.wait(now);
+}
+
+void Gate::open() { open_ = true; }
+
+}  // namespace rayfarm

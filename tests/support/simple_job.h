@@ -1,0 +1,36 @@
+// A job whose pixels are known without tracing a ray, and ways to hold its rendering in the middle.
+#pragma once
+#include <atomic>
+
+#include "common/net/codec.h"
+#include "common/work/tile_renderer.h"
+
+namespace rayfarm {
+
+/// One sphere and a light.
+Scene simple_scene();
+/// With its hash.
+SceneData scene_data(const Scene& scene);
+
+/// The pixel values are their positions: what travels and where it is put can be seen.
+std::optional<std::vector<PassImage>> position_tile(const RenderSettings& settings, std::uint32_t tile,
+                                                    PassSet passes, const std::function<bool()>& stop);
+/// position_tile() for any scene.
+TileRenderer prepare_positions(Scene scene);
+
+/// Renderers that wait in the middle of each tile until they are let go or told to stop.
+class Gate {
+ public:
+  PrepareScene prepare();
+  /// Waits until so many tiles have been begun in all.
+  void wait_for_begun(int tiles);
+  void open();
+  /// How many were told to stop.
+  int stopped() const { return stopped_; }
+
+ private:
+  std::atomic<int> begun_{0}, stopped_{0};
+  std::atomic<bool> open_{false};
+};
+
+}  // namespace rayfarm
