@@ -1,7 +1,7 @@
 // The script door: Lua text in, a Scene out, or an error that names file, line and fix.
 //
-// The text is evaluated once, in a limited child process (rayfarm-script): CPU time, memory and wall clock bounded,
-// no files, no network. Nothing in the text can harm the caller.
+// The text is evaluated once, in a limited child process (rayfarm-script): CPU time, memory and wall clock
+// bounded, no files, no network. Nothing in the text can harm the caller.
 #pragma once
 #include <chrono>
 #include <filesystem>
@@ -29,7 +29,7 @@ struct ScriptParameter {
 };
 
 struct ScriptRequest {
-  std::string name;                           // for messages: the file's name
+  std::string name;  // for messages: the file's name
   std::string text;
   std::map<std::string, std::string> params;  // -p key=value
   std::uint32_t frame = 0;                    // time = animation.start + frame / fps
@@ -40,7 +40,8 @@ struct ScriptResult {
   std::vector<ScriptParameter> parameters;
 };
 
-/// Throws SceneError: syntax or run-time error with file and line, an unknown key or parameter, a limit exceeded.
+/// Throws SceneError: syntax or run-time error with file and line, an unknown key or parameter, a limit
+/// exceeded.
 ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits = {});
 
 /// Reads the file and evaluates it. Throws SceneError also when it cannot be read.

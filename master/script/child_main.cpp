@@ -1,0 +1,66 @@
+// rayfarm-script: evaluates one scene script under limits. Started by evaluate(), not by people.
+// Standard input: a ScriptTask. Standard output: its reply. Standard error: what the script prints.
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "master/script/confine.h"
+#include "master/script/exchange.h"
+#include "master/script/run_script.h"
+
+namespace rayfarm {
+namespace {
+
+std::string read_all(int fd) {
+  std::string all;
+  char buffer[65536];
+  for (ssize_t n; (n = read(fd, buffer, sizeof buffer)) > 0;) all.append(buffer, static_cast<std::size_t>(n));
+  return all;
+}
+
+void write_all(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = write(fd, bytes.data(), bytes.size());
+    if (n <= 0) return;  // nobody listens any more
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+std::string reply_to(const ScriptTask& task) {
+  // Beside Lua's values: the scene, its bytes, the program itself.
+  constexpr std::uint64_t beside_lua = 4ull << 30;
+  constexpr std::uint32_t seconds_to_encode = 60;
+  confine(task.limits.memory_bytes + beside_lua);
+  limit_cpu(task.limits.cpu_seconds + 1);  // a second after the limit from within, which can name the line
+  const ScriptResult result = run_script(task.request, task.limits);
+  limit_cpu(task.limits.cpu_seconds + seconds_to_encode);
+  return encode_reply(result);
+}
+
+int run() {
+  const ScriptTask task = decode_task(read_all(STDIN_FILENO));
+  std::string reply;
+  try {
+    reply = reply_to(task);
+  } catch (const std::bad_alloc&) {
+    reply = encode_error(task.request.name + ": not enough memory for the scene");
+  } catch (const SceneError& error) {
+    reply = encode_error(error.what());
+  }
+  write_all(STDOUT_FILENO, reply);
+  return 0;
+}
+
+}  // namespace
+}  // namespace rayfarm
+
+int main() {
+  try {
+    return rayfarm::run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rayfarm-script: %s\n", error.what());
+    return 1;
+  }
+}

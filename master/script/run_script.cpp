@@ -1,0 +1,73 @@
+#include "master/script/run_script.h"
+
+#include <lauxlib.h>
+
+#include "master/script/lua_library.h"
+#include "master/script/lua_nodes.h"
+#include "master/script/lua_params.h"
+#include "master/script/lua_scene.h"
+#include "master/script/lua_state.h"
+#include "master/script/script_run.h"
+
+namespace rayfarm {
+namespace {
+
+struct Job {
+  const ScriptRequest& request;
+  double time;  // seconds
+};
+
+/// Makes all that a script may use known, then compiles it. Leaves the script on the stack.
+int prepare(lua_State* L) {
+  const Job& job = *static_cast<const Job*>(lua_touserdata(L, 1));
+  open_library(L);
+  open_nodes(L);
+  open_node_methods(L);
+  open_scene(L);
+  open_params(L);
+  lua_pushnumber(L, job.time);
+  lua_setglobal(L, "time");
+  make_globals_strict(L);
+
+  std::string_view text = job.request.text;
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::string chunk = "@" + job.request.name;
+  if (luaL_loadbufferx(L, text.data(), text.size(), chunk.c_str(), "t") != LUA_OK) lua_error(L);
+  return 1;
+}
+
+ScriptResult run_at(const Job& job, const ScriptLimits& limits) {
+  ScriptRun run{job.request.params, {}, std::nullopt};
+  LuaState state(limits.memory_bytes, std::chrono::seconds(limits.cpu_seconds));
+  lua_State* const L = state.get();
+  set_run(L, run);
+  lua_pushcfunction(L, prepare);
+  lua_pushlightuserdata(L, const_cast<Job*>(&job));
+  state.call(1, 1);
+  state.call(0, 1);
+  check_all_declared(run);
+  if (!luaL_testudata(L, -1, LuaName<SceneMark>::value))
+    throw SceneError("the script must end with return scene{ ... }, it returns " + description(L, -1));
+  return {std::move(*run.scene), std::move(run.parameters)};
+}
+
+}  // namespace
+
+ScriptResult run_script(const ScriptRequest& request, const ScriptLimits& limits) {
+  try {
+    ScriptResult result = run_at({request, 0}, limits);
+    if (!result.scene.animation) return result;
+    // What the time is only the script can say; where it is not 0, it is evaluated again.
+    const double time = result.scene.animation->start + request.frame / result.scene.animation->fps;
+    return time == 0 ? result : run_at({request, time}, limits);
+  } catch (const SceneError& error) {
+    const std::string message = error.what();
+    // Lua's messages begin with the file and line already.
+    throw message.starts_with(request.name + ":") ? error : SceneError(request.name + ": " + message);
+  } catch (const std::bad_alloc&) {
+    throw SceneError(request.name + ": not enough memory");
+  }
+}
+
+}  // namespace rayfarm
