@@ -34,9 +34,16 @@ void Film::put(std::uint32_t tile, const PassImage& image) {
   assert(!(done_[tile] & 1u << image.pass) && "a pass is put once");
 
   const float* value = image.rgb.data();
-  for_each_pixel(area, image.pass, [&](std::uint32_t x, std::uint32_t y) {
-    std::copy_n(value, 3, &rgb_[float_index(size_, x, y)]);
-    value += 3;
+  for_each_row(area, image.pass, [&](std::uint32_t y, std::uint32_t first, std::uint32_t step) {
+    float* row = &rgb_[float_index(size_, 0, y)];
+    if (step == 1) {  // most pixels are in such rows
+      const std::size_t floats = 3 * std::size_t{area.x1 - first};
+      std::copy_n(value, floats, row + 3 * std::size_t{first});
+      value += floats;
+      return;
+    }
+    for (std::uint32_t x = first; x < area.x1; x += step, value += 3)
+      std::copy_n(value, 3, row + 3 * std::size_t{x});
   });
   done_[tile] |= static_cast<PassSet>(1u << image.pass);
   pixels_done_ += count;

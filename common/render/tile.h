@@ -40,17 +40,26 @@ Tile tile_at(Size film, std::uint32_t number);
 /// All tile numbers, those nearest the film's centre first (ties by number).
 std::vector<std::uint32_t> centre_first(Size film);
 
-/// Calls visit(x, y) for the pixels of one pass, row by row, in the order in which their values travel.
-/// The tile must be a film's: its corner lies on the coarsest grid.
+/// Calls visit(y, first, step) for the rows of one pass: its pixels are at x = first, first + step, ... <
+/// tile.x1. The tile must be a film's: its corner lies on the coarsest grid.
 template <class Visit>
-void for_each_pixel(const Tile& tile, int pass, Visit&& visit) {
+void for_each_row(const Tile& tile, int pass, Visit&& visit) {
   const std::uint32_t stride = pass_stride[pass], coarser = 2 * stride;
   for (std::uint32_t y = tile.y0; y < tile.y1; y += stride) {
     const bool row_has_coarser = pass != 0 && y % coarser == 0;
-    const std::uint32_t first = tile.x0 + (row_has_coarser ? stride : 0);
-    const std::uint32_t step = row_has_coarser ? coarser : stride;
-    for (std::uint32_t x = first; x < tile.x1; x += step) visit(x, y);
+    if (row_has_coarser)
+      visit(y, tile.x0 + stride, coarser);
+    else
+      visit(y, tile.x0, stride);
   }
+}
+
+/// Calls visit(x, y) for the pixels of one pass, row by row, in the order in which their values travel.
+template <class Visit>
+void for_each_pixel(const Tile& tile, int pass, Visit&& visit) {
+  for_each_row(tile, pass, [&](std::uint32_t y, std::uint32_t first, std::uint32_t step) {
+    for (std::uint32_t x = first; x < tile.x1; x += step) visit(x, y);
+  });
 }
 
 std::uint32_t pixel_count(const Tile& tile, int pass);
