@@ -1,44 +1,27 @@
 #include "master/farm.h"
 
+#include <array>
+#include <utility>
+
 #include "common/render/settings.h"
 #include "master/farm_state.h"
 
 namespace rayfarm {
-std::string_view name_of(JobState state) {
-  switch (state) {
-    case JobState::waiting:
-      return "waiting";
-    case JobState::running:
-      return "running";
-    case JobState::paused:
-      return "paused";
-    case JobState::done:
-      return "done";
-    case JobState::cancelled:
-      return "cancelled";
-    case JobState::failed:
-      return "failed";
-  }
-  return "unknown";
-}
+namespace {
 
-std::string_view name_of(WorkerState state) {
-  switch (state) {
-    case WorkerState::idle:
-      return "idle";
-    case WorkerState::busy:
-      return "busy";
-    case WorkerState::drained:
-      return "drained";
-  }
-  return "unknown";
-}
+constexpr std::array<std::string_view, 6> job_state_names{"waiting", "running",   "paused",
+                                                          "done",    "cancelled", "failed"};
+constexpr std::array<std::string_view, 3> worker_state_names{"idle", "busy", "drained"};
+
+}  // namespace
+
+std::string_view name_of(JobState state) { return job_state_names.at(static_cast<std::size_t>(state)); }
+std::string_view name_of(WorkerState state) { return worker_state_names.at(static_cast<std::size_t>(state)); }
 
 Farm::Farm() : state_(std::make_unique<State>()) {}
 Farm::~Farm() = default;
 
-// Workers.
-// -----------------------------------------------------------------------------------------------------
+// Workers. ----------------------------------------------------------------------------------
 
 WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   const WorkerId id{++state_->last_worker};
@@ -99,8 +82,7 @@ bool Farm::undrain(std::string_view name, FarmTime now) {
   return true;
 }
 
-// Jobs.
-// --------------------------------------------------------------------------------------------------------
+// Jobs. ----------------------------------------------------------------------------------
 
 JobId Farm::submit(JobSpec spec, FarmTime now) {
   check(spec.settings);
@@ -171,8 +153,7 @@ bool Farm::set_priority(JobId id, int priority, FarmTime) {
   return true;
 }
 
-// Views.
-// -------------------------------------------------------------------------------------------------------
+// Views. ----------------------------------------------------------------------------------
 
 std::vector<JobView> Farm::jobs(FarmTime now) const {
   std::vector<JobView> views;

@@ -14,6 +14,7 @@
 // (3.7 MB for 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. Ended jobs keep their film: it is
 // fetched later.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -75,9 +76,9 @@ struct WorkerView {
   WorkerId id{};
   WorkerInfo info;
   WorkerState state = WorkerState::idle;
-  std::uint32_t leases = 0;  // held now
-  std::uint64_t tiles = 0,
-                pixels = 0;       // delivered; each pass of a tile that a local thread did counts as one
+  std::uint32_t leases = 0;       // held now
+  std::uint64_t tiles = 0;        // delivered; each pass of a tile that a local thread did counts as one
+  std::uint64_t pixels = 0;       // delivered
   double samples_per_second = 0;  // learned, all its threads; 0: not known yet
   FarmTime joined{};
 };
@@ -105,6 +106,7 @@ class Farm {
   /// Sends Welcome with the worker's name (made unique: the second "pc" is "pc-2"; a name is free again when
   /// its worker is removed), then work. A drained name stays drained until undrain().
   WorkerId add_worker(WorkerInfo info, Send send, FarmTime now);
+  // The worker of the next three must be here: added, not removed.
   /// Its leases go to the others, first of all. The reason is for people.
   void remove_worker(WorkerId worker, std::string reason, FarmTime now);
   /// Throws WorkerError if the result is not what its lease asked for. A result that comes after its lease
@@ -122,8 +124,8 @@ class Farm {
   bool resume(JobId job, FarmTime now);
   bool cancel(JobId job, FarmTime now);
   bool set_priority(JobId job, int priority, FarmTime now);
-  // By the worker's unique name. Draining revokes what it holds at once and gives it nothing more. False: no
-  // such worker; undrain also knows drained workers that are away.
+  // Of workers by their unique name. Draining revokes what it holds at once and gives it nothing more. False:
+  // no such worker; undrain also knows drained workers that are away.
   bool drain(std::string_view name, FarmTime now);
   bool undrain(std::string_view name, FarmTime now);
 

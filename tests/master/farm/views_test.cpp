@@ -1,5 +1,6 @@
 // What people are told: names, progress, time to go, events.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 
@@ -129,6 +130,36 @@ TEST(Farm, EachEventIsOneLineThatSaysWhoAndWhy) {
   EXPECT_EQ(texts_of(farm), expected);
   EXPECT_TRUE(texts_of(farm).empty());
 }
+
+TEST(Farm, StatesHaveNames) {
+  for (const auto& [state, name] : {std::pair{JobState::waiting, "waiting"},
+                                    {JobState::running, "running"},
+                                    {JobState::paused, "paused"},
+                                    {JobState::done, "done"},
+                                    {JobState::cancelled, "cancelled"},
+                                    {JobState::failed, "failed"}})
+    EXPECT_EQ(name_of(state), name);
+  EXPECT_EQ(name_of(WorkerState::idle), "idle");
+  EXPECT_EQ(name_of(WorkerState::busy), "busy");
+  EXPECT_EQ(name_of(WorkerState::drained), "drained");
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of address space for itself
+TEST(Farm, AJobTooBigForTheMastersMemoryFailsAndTheNextOneIsServed) {
+  rlimit unlimited{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &unlimited), 0);
+  const rlimit four_gigabytes{rlim_t{4} << 30, unlimited.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &four_gigabytes), 0);
+  Farm farm;
+  const JobId big = farm.submit(job_of({60'000, 8'000}), 0s), small = farm.submit(job_of({64, 64}), 0s);
+  FakeWorker worker(farm, pc());
+  setrlimit(RLIMIT_AS, &unlimited);
+  EXPECT_EQ(farm.job(big, 0s)->state, JobState::failed);
+  EXPECT_NE(farm.job(big, 0s)->message.find("60000x8000"), std::string::npos);
+  EXPECT_EQ(farm.film(big), nullptr);
+  EXPECT_EQ(farm.job(small, 0s)->state, JobState::running);
+}
+#endif
 
 TEST(Farm, TheRevisionGrowsWithEveryChangeOfAJob) {
   Farm farm;
