@@ -29,20 +29,25 @@ class FarmDoor {
   template <class Question>
   std::invoke_result_t<Question&, Farm&, FarmTime> ask(Question question) const {
     using Answer = std::invoke_result_t<Question&, Farm&, FarmTime>;
-    const auto promise = std::make_shared<std::promise<Answer>>();
+    auto promise = std::make_shared<std::promise<Answer>>();
     std::future<Answer> answer = promise->get_future();
-    on_farm_([promise, question = std::move(question)](Farm& farm, FarmTime now) mutable {
-      try {
-        promise->set_value(question(farm, now));
-      } catch (...) {
-        promise->set_exception(std::current_exception());
-      }
-    });
+    on_farm_(
+        [promise = std::move(promise), question = std::move(question)](Farm& farm, FarmTime now) mutable {
+          try {
+            promise->set_value(question(farm, now));
+          } catch (...) {
+            promise->set_exception(std::current_exception());
+          }
+        });
     const auto deadline = std::chrono::steady_clock::now() + patience;
     while (answer.wait_for(glance) != std::future_status::ready)
       if (closed_ || std::chrono::steady_clock::now() > deadline)
         throw FarmUnavailable("the master is stopping or very busy; try again");
-    return answer.get();
+    try {
+      return answer.get();
+    } catch (const std::future_error&) {  // the closure was dropped
+      throw FarmUnavailable("the master is stopping");
+    }
   }
 
   /// Waiting askers leave: the farm's thread may be the one that wants them gone.

@@ -26,13 +26,9 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 using asio::ip::tcp;
-using std::chrono::seconds;
 
 constexpr std::uint32_t header_limit = 8 * 1024;
-constexpr int max_connections = 128;
-constexpr auto header_patience = seconds(30);                 // also how long an idle connection is kept
-constexpr auto body_patience = seconds(60);                   // 64 MB from a slow PC of the lab
-constexpr auto write_patience = seconds(600);                 // a film of gigabytes over 100 Mbit/s
+constexpr auto write_patience = std::chrono::seconds(600);    // a film of gigabytes over 100 Mbit/s
 constexpr auto news_glance = std::chrono::milliseconds(100);  // the changes of many tiles make one answer
 
 tcp::endpoint endpoint_of(const std::string& listen) {
@@ -113,7 +109,7 @@ std::optional<ApiResponse> complaint(const boost::system::error_code& error) {
 
 struct HttpServer::Parts {
   Parts(const HttpSettings& settings, OnFarm on_farm)
-      : farm(std::move(on_farm)), acceptor(acceptor_at(io, settings)) {
+      : settings(settings), farm(std::move(on_farm)), acceptor(acceptor_at(io, settings)) {
     const asio::ip::address address = acceptor.local_endpoint().address();
     listening = {address.to_string(), address.is_loopback(), pc_name()};
   }
@@ -127,6 +123,7 @@ struct HttpServer::Parts {
   asio::awaitable<ApiResponse> answer_in_pool(const ApiRequest& request);
   asio::awaitable<std::uint64_t> revision_in_pool();
 
+  const HttpSettings settings;
   FarmDoor farm;
   ListenAddress listening;
   asio::io_context io{1};
@@ -145,14 +142,14 @@ asio::awaitable<void> HttpServer::Parts::accept_all() {
       co_await pause.async_wait(asio::use_awaitable);
       continue;
     }
-    if (connections >= max_connections) continue;  // closes it
+    if (connections >= max_http_connections) continue;  // closes it
+    ++connections;
     asio::co_spawn(io, session(beast::tcp_stream(std::move(socket))), asio::detached);
   }
 }
 
 /// Ends when the peer does, on the first mistake, or when patience does.
 asio::awaitable<void> HttpServer::Parts::session(beast::tcp_stream stream) {
-  ++connections;
   try {
     beast::flat_buffer buffer(header_limit + 1024);
     while (co_await converse(stream, buffer)) {}
@@ -170,7 +167,7 @@ asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
   parser.body_limit(submission_limit);
   boost::system::error_code error;
 
-  stream.expires_after(header_patience);
+  stream.expires_after(settings.header_patience);
   co_await http::async_read_header(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
   ApiRequest request = api_request(parser.get());
   std::optional<ApiResponse> refused = error ? complaint(error) : refusal(request, listening);
@@ -181,7 +178,7 @@ asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
 
   if (!refused) {
     parser.body_limit(limit);  // for a body in chunks, which does not tell its size
-    stream.expires_after(body_patience);
+    stream.expires_after(settings.body_patience);
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
     if (error) refused = complaint(error);
     if (error && !refused) co_return false;

@@ -1,7 +1,9 @@
 // The HTTP server: a thread of its own with Boost.Beast, which no other room sees.
 //
-// Bounds on every peer: header 8 KB, body as the API says, a deadline on each step, 128 connections.
+// Bounds on every peer: header 8 KB, body as the API says, a deadline on each step, 128 connections at once.
 #pragma once
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -11,6 +13,7 @@
 namespace rayfarm {
 
 constexpr std::uint16_t default_http_port = 5412;
+constexpr int max_http_connections = 128;  // more are closed at once
 
 /// The server cannot listen; the message names the address and the fix.
 struct HttpError : std::runtime_error {
@@ -18,8 +21,10 @@ struct HttpError : std::runtime_error {
 };
 
 struct HttpSettings {
-  std::string listen = "127.0.0.1:5412";  // ADDRESS:PORT; port 0: any free one
-  bool insecure = false;                  // without it only loopback is listened to
+  std::string listen = "127.0.0.1:5412";              // ADDRESS:PORT; port 0: any free one
+  bool insecure = false;                              // without it only loopback is listened to
+  std::chrono::milliseconds header_patience{30'000};  // also how long an idle connection is kept
+  std::chrono::milliseconds body_patience{60'000};    // 64 MB from a slow PC of the lab
 };
 
 class HttpServer {

@@ -1,0 +1,211 @@
+#include "master/http/server.h"
+
+#include <gtest/gtest.h>
+
+#include <list>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "master/http/client.h"
+#include "master/http/submission.h"
+#include "tests/support/farm_thread.h"
+#include "tests/support/raw_peer.h"
+#include "tests/support/test_submission.h"
+
+namespace rayfarm {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+OnFarm door_to(FarmThread& farm) {
+  return [&farm](FarmThread::Task task) { farm.post(std::move(task)); };
+}
+
+class Server : public testing::Test {
+ protected:
+  HttpReply get(const std::string& target) { return send({"GET", server.url(), target, ""}); }
+  HttpReply post(const std::string& target, const json& body) {
+    return send({"POST", server.url(), target, body.dump()});
+  }
+  std::uint16_t port() const {
+    return static_cast<std::uint16_t>(std::stoi(server.url().substr(server.url().rfind(':') + 1)));
+  }
+  /// The whole answer to bytes sent by hand; "Connection: close" is up to the sender.
+  std::string answer_to(const std::string& bytes) {
+    RawPeer peer(port());
+    peer.send(bytes);
+    return peer.rest();
+  }
+  std::string status_line(const std::string& bytes) {
+    const std::string answer = answer_to(bytes);
+    return answer.substr(0, answer.find("\r\n"));
+  }
+
+  FarmThread farm;
+  HttpServer server{{.listen = "127.0.0.1:0", .header_patience = 300ms, .body_patience = 300ms},
+                    door_to(farm)};
+};
+
+const std::string host = "Host: 127.0.0.1\r\n", close = "Connection: close\r\n";
+
+TEST_F(Server, AnswersItsClient) {
+  const HttpReply reply = get("/api/v1/version");
+  EXPECT_EQ(reply.status, 200u);
+  EXPECT_EQ(json::parse(reply.body)["api"], 1);
+}
+
+TEST_F(Server, AJobGoesInAndItsFilmComesOut) {
+  farm.add_renderer("pc1");
+  const json job = json::parse(post("/api/v1/jobs", to_json(small_job())).body);
+  std::uint64_t revision = job["revision"];
+  const std::string target = "/api/v1/jobs/" + job["id"].dump();
+  for (json now = job; now["state"] != "done"; revision = now["revision"])
+    now = json::parse(get(target + "?wait=30&after=" + std::to_string(revision)).body);
+  const std::string film = get(target + "/film").body;
+  const Film decoded = decode_film({reinterpret_cast<const std::uint8_t*>(film.data()), film.size()});
+  EXPECT_TRUE(decoded.is_complete());
+}
+
+TEST_F(Server, NewsWaitForAChangeAndNoLonger) {
+  const std::uint64_t revision = json::parse(get("/api/v1/jobs").body)["revision"];
+  std::jthread submitter([&] { post("/api/v1/jobs", to_json(small_job())); });
+  const json news = json::parse(get("/api/v1/jobs?wait=30&after=" + std::to_string(revision)).body);
+  EXPECT_EQ(news["jobs"].size(), 1u);
+}
+
+TEST_F(Server, KeepsAConnectionForTheNextRequest) {
+  const std::string request = "GET /api/v1/version HTTP/1.1\r\n" + host;
+  const std::string answer = answer_to(request + "\r\n" + request + close + "\r\n");
+  EXPECT_NE(answer.find("HTTP/1.1 200", answer.find("HTTP/1.1 200") + 1), std::string::npos);
+}
+
+TEST_F(Server, ServesThePageWithItsPartsAndLetsItLoadNothingElse) {
+  EXPECT_NE(get("/").body.find("/app.js"), std::string::npos);
+  EXPECT_EQ(get("/app.js").status, 200u);
+  EXPECT_EQ(get("/style.css").status, 200u);
+  EXPECT_NE(answer_to("GET / HTTP/1.1\r\n" + host + close + "\r\n").find("default-src 'none'"),
+            std::string::npos);
+}
+
+// Hostile peers.
+// -----------------------------------------------------------------------------------------------
+
+TEST_F(Server, RefusesAForeignHostOriginAndContentType) {
+  EXPECT_EQ(status_line("GET /api/v1/jobs HTTP/1.1\r\nHost: evil.example\r\n\r\n"), "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(status_line("GET /api/v1/jobs HTTP/1.1\r\n\r\n"), "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(status_line("GET /api/v1/jobs HTTP/1.1\r\n" + host + "Origin: http://evil.example\r\n\r\n"),
+            "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(status_line("POST /api/v1/jobs HTTP/1.1\r\n" + host +
+                        "Content-Type: text/plain\r\nContent-Length: 2\r\n\r\n{}"),
+            "HTTP/1.1 415 Unsupported Media Type");
+  EXPECT_TRUE(json::parse(get("/api/v1/jobs").body)["jobs"].empty());
+}
+
+TEST_F(Server, RefusesAHugeHeader) {
+  EXPECT_EQ(status_line("GET / HTTP/1.1\r\n" + host + "X: " + std::string(100'000, 'x') + "\r\n\r\n"),
+            "HTTP/1.1 431 Request Header Fields Too Large");
+  EXPECT_EQ(status_line("GET /" + std::string(100'000, 'x') + " HTTP/1.1\r\n" + host + "\r\n"),
+            "HTTP/1.1 431 Request Header Fields Too Large");
+}
+
+TEST_F(Server, RefusesABodyThatIsAnnouncedTooLargeBeforeItComes) {
+  const std::string type = "Content-Type: application/json\r\n";
+  for (const std::string& request :
+       {"POST /api/v1/jobs HTTP/1.1\r\n" + host + type + "Content-Length: 99999999999\r\n\r\n",
+        "POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host + type + "Content-Length: 100000\r\n\r\n"})
+    EXPECT_EQ(status_line(request), "HTTP/1.1 413 Payload Too Large");
+}
+
+TEST_F(Server, RefusesABodyInChunksOnceItIsTooLarge) {
+  std::string request = "POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host +
+                        "Content-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n";
+  for (int i = 0; i < 17; ++i) request += "1000\r\n" + std::string(4096, ' ') + "\r\n";
+  EXPECT_EQ(status_line(request), "HTTP/1.1 413 Payload Too Large");
+}
+
+TEST_F(Server, AnswersGarbageWithAnErrorOrAnEnd) {
+  EXPECT_EQ(status_line("hello\r\n\r\n"), "HTTP/1.1 400 Bad Request");
+  EXPECT_EQ(status_line(std::string(64, '\0')), "HTTP/1.1 400 Bad Request");
+  EXPECT_EQ(status_line("\x16\x03\x01\x02\x00\x01\x00\x01\xfc"), "HTTP/1.1 400 Bad Request");  // TLS
+  EXPECT_EQ(get("/api/v1/version").status, 200u);
+}
+
+TEST_F(Server, ASilentOrSlowPeerIsLeft) {
+  EXPECT_EQ(answer_to(""), "");
+  EXPECT_EQ(answer_to("GET / HT"), "");
+  EXPECT_EQ(answer_to("POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host +
+                      "Content-Type: application/json\r\nContent-Length: 10\r\n\r\n{"),
+            "");
+}
+
+TEST_F(Server, MoreConnectionsThanItHasRoomForAreClosed) {
+  std::list<RawPeer> peers;
+  for (int i = 0; i < max_http_connections + 1; ++i) peers.emplace_back(port());
+  EXPECT_EQ(peers.back().some(), "");
+  peers.clear();
+  HttpReply reply;
+  while (reply.status != 200) try {
+      reply = get("/api/v1/version");
+    } catch (const MasterUnreachable&) {  // its peers have not all been seen to leave yet
+    }
+}
+
+// The server and its client.
+// -----------------------------------------------------------------------------------
+
+TEST(HttpServer, EndsWhileAPeerWaitsForNewsAndTheFarmIsBusy) {
+  FarmThread farm;
+  std::promise<void> busy, free;
+  auto server = std::make_unique<HttpServer>(HttpSettings{.listen = "127.0.0.1:0"}, door_to(farm));
+  farm.post([&](Farm&, FarmTime) { busy.set_value(), free.get_future().wait(); });
+  busy.get_future().wait();
+  const std::string url = server->url();
+  std::jthread waiting([&] { EXPECT_ANY_THROW(send({"GET", url, "/api/v1/jobs?wait=30", ""})); });
+  RawPeer another(static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1))));
+  another.send("GET /api/v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  server.reset();
+  free.set_value();
+}
+
+TEST(HttpServer, ListensOnLoopbackOnlyUnlessToldOtherwise) {
+  FarmThread farm;
+  EXPECT_THROW(HttpServer({.listen = "0.0.0.0:0"}, door_to(farm)), HttpError);
+  EXPECT_THROW(HttpServer({.listen = "[::]:0"}, door_to(farm)), HttpError);
+  EXPECT_NO_THROW(HttpServer({.listen = "0.0.0.0:0", .insecure = true}, door_to(farm)));
+}
+
+TEST(HttpServer, SaysWhyItCannotListen) {
+  FarmThread farm;
+  for (const char* listen :
+       {"", "5412", "127.0.0.1", "127.0.0.1:", "127.0.0.1:x", "127.0.0.1:70000", "no-name:1"})
+    EXPECT_THROW(HttpServer({.listen = listen}, door_to(farm)), HttpError) << listen;
+  const HttpServer first({.listen = "127.0.0.1:0"}, door_to(farm));
+  EXPECT_THROW(HttpServer({.listen = first.url().substr(7)}, door_to(farm)), HttpError);
+}
+
+TEST(HttpClient, SaysThatNobodyAnswers) {
+  std::string url;
+  {
+    FarmThread farm;
+    url = HttpServer({.listen = "127.0.0.1:0"}, door_to(farm)).url();
+  }
+  EXPECT_THROW(send({"GET", url, "/", ""}), MasterUnreachable);
+  EXPECT_THROW(send({"GET", "http://no-such-host.invalid:1", "/", ""}), MasterUnreachable);
+  for (const char* wrong : {"", "127.0.0.1:5412", "https://127.0.0.1", "http://", "http://a:b", "http://a/b"})
+    EXPECT_THROW(send({"GET", wrong, "/", ""}), std::invalid_argument) << wrong;
+}
+
+TEST(HttpClient, LeavesWhenToldTo) {
+  FarmThread farm;
+  const HttpServer server({.listen = "127.0.0.1:0"}, door_to(farm));
+  HttpRequest request{"GET", server.url(), "/api/v1/jobs?wait=30&after=0", ""};
+  farm.run([&](Farm& f, FarmTime) {
+    request.target = "/api/v1/jobs?wait=30&after=" + std::to_string(f.revision());
+  });
+  request.cancelled = [] { return true; };
+  EXPECT_THROW(send(request), RequestCancelled);
+}
+
+}  // namespace
+}  // namespace rayfarm
