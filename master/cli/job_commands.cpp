@@ -1,0 +1,156 @@
+// rayfarm jobs, job, watch, pause, resume, cancel, priority.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "master/cli/commands.h"
+#include "master/cli/interrupt.h"
+#include "master/cli/job_progress.h"
+#include "master/cli/master_api.h"
+#include "master/cli/text.h"
+
+namespace rayfarm {
+namespace {
+
+using nlohmann::json;
+
+struct JobArguments {
+  JobNumber id = 0;
+  int priority = 0;
+  bool json = false;
+};
+
+void print(const json& value) {
+  std::printf("%s\n", value.dump().c_str());
+  std::fflush(stdout);
+}
+
+std::string text_in(const json& object, const char* name) {
+  return printable(object.at(name).get<std::string>());
+}
+std::string number_in(const json& object, const char* name) { return object.at(name).dump(); }
+
+std::string size_text(const json& settings) {
+  return number_in(settings, "width") + "x" + number_in(settings, "height");
+}
+
+std::string progress_of(const json& job) { return percent(job.at("pixels_done"), job.at("pixels_total")); }
+
+ExitCode list_jobs(const JobArguments& a) {
+  const json answer = get_json("/api/v1/jobs");
+  if (a.json) {
+    print(answer);
+    return ExitCode::done;
+  }
+  std::vector<std::vector<std::string>> rows{
+      {"ID", "NAME", "STATE", "DONE", "ETA", "PRIORITY", "SIZE", "SPP", "OUTPUT"}};
+  for (const json& job : answer.at("jobs")) {
+    const json& settings = job.at("settings");
+    rows.push_back({number_in(job, "id"), text_in(job, "name"), text_in(job, "state"), progress_of(job),
+                    eta_text(job), number_in(job, "priority"), size_text(settings),
+                    number_in(settings, "spp"), text_in(job, "output")});
+  }
+  std::fputs(table(rows).c_str(), stdout);
+  return ExitCode::done;
+}
+
+ExitCode show_job(const JobArguments& a) {
+  const json job = get_json(job_target(a.id));
+  if (a.json) {
+    print(job);
+    return ExitCode::done;
+  }
+  const json &settings = job.at("settings"), &counters = job.at("counters");
+  const std::chrono::seconds elapsed(static_cast<long long>(job.at("elapsed_seconds").get<double>()));
+  std::vector<std::vector<std::string>> rows{
+      {"id", number_in(job, "id")},
+      {"name", text_in(job, "name")},
+      {"state", text_in(job, "state")},
+      {"done", progress_of(job)},
+      {"elapsed", clock_text(elapsed)},
+      {"ETA", eta_text(job)},
+      {"priority", number_in(job, "priority")},
+      {"size", size_text(settings)},
+      {"samples per pixel", number_in(settings, "spp")},
+      {"sampler", text_in(settings, "sampler")},
+      {"seed", number_in(settings, "seed")},
+      {"frame", number_in(settings, "frame")},
+      {"rays", short_count(counters.at("rays").get<double>())},
+      {"bad samples", number_in(counters, "bad_samples")},
+      {"tiles given back", number_in(job, "tiles_given_back")},
+      {"output", text_in(job, "output")},
+      {"scene", text_in(job, "scene_hash")},
+      {"message", text_in(job, "message")},
+  };
+  std::erase_if(rows, [](const std::vector<std::string>& row) { return row[1].empty(); });
+  std::fputs(table(rows).c_str(), stdout);
+  return ExitCode::done;
+}
+
+ExitCode watch_job(const JobArguments& a) {
+  note_interrupts();
+  json ended;
+  if (a.json) {
+    ended = await_end(a.id, print);
+  } else {
+    ProgressLine line;
+    ended = await_end(a.id, [&](const json& job) { show(line, job); });
+  }
+  expect_done(ended);
+  if (!a.json) std::printf("job %llu is done\n", static_cast<unsigned long long>(a.id));
+  return ExitCode::done;
+}
+
+/// POSTs the verb and says what the job is now.
+ExitCode change_job(const JobArguments& a, const std::string& verb, const json& body) {
+  const json job = post_json(job_target(a.id) + "/" + verb, body);
+  if (a.json)
+    print(job);
+  else
+    std::printf("job %llu is %s, priority %s\n", static_cast<unsigned long long>(a.id),
+                text_in(job, "state").c_str(), number_in(job, "priority").c_str());
+  return ExitCode::done;
+}
+
+/// A command with --json, and with the job's id first unless it is about all of them.
+CLI::App* add(CLI::App& app, Command& chosen, const std::string& name, const std::string& help,
+              const std::shared_ptr<JobArguments>& arguments,
+              std::function<ExitCode(const JobArguments&)> run) {
+  CLI::App* command = app.add_subcommand(name, help);
+  command->add_flag("--json", arguments->json, "Answer as JSON");
+  command->callback([=, &chosen] { chosen = [=] { return run(*arguments); }; });
+  return command;
+}
+
+CLI::App* add_for_job(CLI::App& app, Command& chosen, const std::string& name, const std::string& help,
+                      std::function<ExitCode(const JobArguments&)> run) {
+  const auto arguments = std::make_shared<JobArguments>();
+  CLI::App* command = add(app, chosen, name, help, arguments, std::move(run));
+  command->add_option("ID", arguments->id, "The job's number, as submit and jobs show it")->required();
+  if (name == "priority")
+    command->add_option("N", arguments->priority, "0 to 99, higher first")
+        ->required()
+        ->check(CLI::Range(0, 99));
+  return command;
+}
+
+}  // namespace
+
+void add_job_commands(CLI::App& app, Command& chosen) {
+  add(app, chosen, "jobs", "List all jobs", std::make_shared<JobArguments>(), list_jobs);
+  add_for_job(app, chosen, "job", "Show all about a job", show_job);
+  add_for_job(app, chosen, "watch", "Show a job's progress until it has ended", watch_job);
+  for (const auto& [verb, help] :
+       {std::pair{"pause", "Stop work on a job until it is resumed"},
+        std::pair{"resume", "Go on with a paused or held job"},
+        std::pair{"cancel", "End a job for good; what is rendered can still be fetched"}})
+    add_for_job(app, chosen, verb, help, [verb = std::string(verb)](const JobArguments& a) {
+      return change_job(a, verb, json::object());
+    });
+  add_for_job(app, chosen, "priority", "Change a job's priority", [](const JobArguments& a) {
+    return change_job(a, "priority", {{"priority", a.priority}});
+  });
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,13 @@
+// A job's progress as the commands show it.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "master/cli/progress_line.h"
+
+namespace rayfarm {
+
+void show(ProgressLine& line, const nlohmann::json& job);
+double fraction_done(const nlohmann::json& job);
+std::string eta_text(const nlohmann::json& job);  // empty: not known
+
+}  // namespace rayfarm

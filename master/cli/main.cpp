@@ -1,0 +1,73 @@
+// The `rayfarm` command: what people type.
+#include <signal.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "common/render/settings.h"
+#include "master/cli/commands.h"
+#include "master/cli/interrupt.h"
+#include "master/files/image_file.h"
+
+namespace rayfarm {
+namespace {
+
+/// Every failure ends here, with one line and its exit code.
+ExitCode run(const Command& command) {
+  const auto ended = [](ExitCode code, const char* message) {
+    const ExitCode told = interrupted() ? ExitCode::interrupted : code;
+    std::fprintf(stderr, "rayfarm: %s\n", message);
+    return told;
+  };
+  try {
+    return command();
+  } catch (const CommandError& error) {
+    return ended(error.code, error.what());
+  } catch (const SceneError& error) {
+    return ended(ExitCode::usage, error.what());
+  } catch (const SettingsError& error) {
+    return ended(ExitCode::usage, error.what());
+  } catch (const FileError& error) {
+    return ended(ExitCode::usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return ended(ExitCode::failed, "not enough memory; try a smaller --size");
+  } catch (const std::exception& error) {
+    return ended(ExitCode::failed, error.what());
+  }
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("rayfarm: ray tracing on all PCs of a lab, or on this one", "rayfarm");
+  app.set_version_flag("--version", "rayfarm " RAYFARM_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  rayfarm render scenes/circus.lua -o circus.png\n"
+      "  rayfarm submit scenes/circus.lua -o circus.exr --size 1920x1080 --spp 256 --watch\n"
+      "  rayfarm jobs\n"
+      "Environment: RAYFARM_MASTER, the master's address (default http://127.0.0.1:5412).\n"
+      "Exit codes: 0 done, 1 failed, 2 usage, scene or output, 3 master unreachable, 4 not allowed,\n"
+      "5 timed out, 6 version refused, 7 partly done, 130 interrupted.");
+  Command chosen;
+  add_render_command(app, chosen);
+  add_submit_command(app, chosen);
+  add_job_commands(app, chosen);
+  add_fetch_command(app, chosen);
+  add_worker_commands(app, chosen);
+  add_compare_command(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+  return static_cast<int>(run(chosen));
+}
+
+}  // namespace
+}  // namespace rayfarm
+
+int main(int argc, char** argv) {
+  ::signal(SIGXFSZ, SIG_IGN);  // a file over the user's limit is an error to report, not a reason to die
+  return rayfarm::run_command_line(argc, argv);
+}

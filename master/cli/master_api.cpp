@@ -1,0 +1,99 @@
+#include "master/cli/master_api.h"
+
+#include <cstdlib>
+
+#include "master/cli/exit_code.h"
+#include "master/cli/interrupt.h"
+#include "master/cli/text.h"
+#include "master/http/client.h"
+
+namespace rayfarm {
+namespace {
+
+using nlohmann::json;
+
+constexpr int news_seconds = 10;  // how long the master may hold a question for news
+
+ExitCode exit_code_of(unsigned status) {
+  if (status == 403 || status == 401) return ExitCode::not_allowed;
+  if (status == 400 || status == 413 || status == 415 || status == 422) return ExitCode::usage;
+  return ExitCode::failed;
+}
+
+std::string error_in(const HttpReply& reply) {
+  const json body = json::parse(reply.body, nullptr, false);
+  if (body.is_object() && body.contains("error") && body["error"].is_string())
+    return printable(body["error"].get<std::string>());
+  return "the master answered with HTTP status " + std::to_string(reply.status);
+}
+
+HttpReply asked(const std::string& method, const std::string& target, const std::string& body) {
+  HttpRequest request{method, master_url(), target, body};
+  request.cancelled = interrupted;
+  try {
+    HttpReply reply = send(request);
+    if (reply.status >= 300) throw CommandError(exit_code_of(reply.status), error_in(reply));
+    return reply;
+  } catch (const MasterUnreachable& error) {
+    throw CommandError(
+        ExitCode::master_unreachable,
+        std::string(error.what()) + "; start one with rayfarm-master, or say where it is in RAYFARM_MASTER");
+  } catch (const RequestTimedOut& error) {
+    throw CommandError(ExitCode::timed_out, error.what());
+  } catch (const RequestCancelled& error) {
+    throw CommandError(ExitCode::interrupted, error.what());
+  } catch (const std::invalid_argument& error) {
+    throw CommandError(ExitCode::usage, std::string(error.what()) + " (RAYFARM_MASTER)");
+  }
+}
+
+json parsed(const HttpReply& reply) {
+  json value = json::parse(reply.body, nullptr, false);
+  if (!value.is_object())
+    throw CommandError(ExitCode::failed, "what answers at " + master_url() + " is not a rayfarm master");
+  return value;
+}
+
+}  // namespace
+
+std::string master_url() {
+  const char* url = std::getenv("RAYFARM_MASTER");
+  return url != nullptr && *url != '\0' ? url : "http://127.0.0.1:5412";
+}
+
+json get_json(const std::string& target) { return parsed(asked("GET", target, "")); }
+std::string get_bytes(const std::string& target) { return asked("GET", target, "").body; }
+json post_json(const std::string& target, const json& body) {
+  return parsed(asked("POST", target, body.dump()));
+}
+
+std::string job_target(JobNumber id) { return "/api/v1/jobs/" + std::to_string(id); }
+
+bool has_ended(const json& job) {
+  const std::string state = job.at("state");
+  return state == "done" || state == "cancelled" || state == "failed";
+}
+
+json await_end(JobNumber id, const std::function<void(const json& job)>& news) {
+  const std::string number = std::to_string(id);
+  try {
+    json job = get_json(job_target(id));
+    for (news(job); !has_ended(job); news(job))
+      job = get_json(job_target(id) + "?wait=" + std::to_string(news_seconds) +
+                     "&after=" + std::to_string(job.at("revision").get<std::uint64_t>()));
+    return job;
+  } catch (const CommandError& error) {
+    if (error.code != ExitCode::interrupted) throw;
+    throw CommandError(ExitCode::interrupted, "interrupted; job " + number + " goes on: rayfarm watch " +
+                                                  number + ", then rayfarm fetch " + number);
+  }
+}
+
+void expect_done(const json& job) {
+  const std::string state = job.at("state"), message = printable(job.at("message"));
+  if (state != "done")
+    throw CommandError(ExitCode::failed, "job " + std::to_string(job.at("id").get<JobNumber>()) + " is " +
+                                             state + (message.empty() ? "" : ": " + message));
+}
+
+}  // namespace rayfarm

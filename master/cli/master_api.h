@@ -1,0 +1,27 @@
+// The master as the commands see it: JSON in, JSON out, every failure an exit code and a message.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace rayfarm {
+
+/// RAYFARM_MASTER, or this PC's.
+std::string master_url();
+
+nlohmann::json get_json(const std::string& target);
+std::string get_bytes(const std::string& target);
+nlohmann::json post_json(const std::string& target, const nlohmann::json& body);
+
+using JobNumber = std::uint64_t;
+std::string job_target(JobNumber id);
+
+/// Shows the job to news() whenever something changed, until it has ended; the job as it ended. Interrupted,
+/// it says that the job goes on.
+nlohmann::json await_end(JobNumber id, const std::function<void(const nlohmann::json& job)>& news);
+bool has_ended(const nlohmann::json& job);
+/// Throws CommandError unless the job is done.
+void expect_done(const nlohmann::json& job);
+
+}  // namespace rayfarm
