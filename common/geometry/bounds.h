@@ -15,6 +15,8 @@ struct Box {
   bool is_bounded() const { return max_abs(low) < infinity && max_abs(high) < infinity; }
 };
 
+/// A box that no ray meets.
+inline Box nowhere() { return {{infinity, infinity, infinity}, {infinity, infinity, infinity}}; }
 inline Box everywhere() { return {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}}; }
 
 inline Box hull(const Box& a, const Box& b) {
@@ -34,7 +36,7 @@ inline double half_area(const Box& b) {
   return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-/// Where the ray is in the box, 0 <= entry; it misses when entry > exit. Conservative: rounding never loses a
+/// Where the ray is in the box (not empty, or nowhere()), 0 <= entry; it misses when entry > exit. Conservative: rounding never loses a
 /// box. Source: T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
 struct BoxSpan {
   double entry, exit;
@@ -45,11 +47,9 @@ inline BoxSpan span_in(const Box& box, const RayQuery& q, double t_max) {
   for (int axis = 0; axis < 3; ++axis) {
     const double o = q.ray.origin[axis], inverse = q.inverse[axis];
     const double a = (box.low[axis] - o) * inverse, b = (box.high[axis] - o) * inverse;
-    const double near = inverse < 0 ? b : a;
-    const double far = (inverse < 0 ? a : b) * (1 + 8 * unit_roundoff);
-    // 0 * infinity is NaN, which compares false: a ray in the box's face counts as inside.
-    if (near > entry) entry = near;
-    if (far < exit) exit = far;
+    // 0 * infinity is NaN, which compares false; in this order of arguments a ray in the box's face counts as inside.
+    entry = greatest(entry, least(a, b));
+    exit = least(exit, greatest(b, a) * (1 + 8 * unit_roundoff));
   }
   return {entry, exit};
 }

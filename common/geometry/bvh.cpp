@@ -65,30 +65,25 @@ Split best_split(std::span<const std::uint32_t> numbers, std::span<const Box> bo
 Bvh::Bvh(std::span<const Box> boxes) : order_(boxes.size()) {
   if (boxes.empty()) return;
   std::iota(order_.begin(), order_.end(), 0u);
-  nodes_.reserve(2 * boxes.size());
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(boxes.size()), 0, boxes);
+  nodes_.reserve(boxes.size());
+  root_ = build(0, static_cast<std::uint32_t>(boxes.size()), 0, boxes);
 }
 
-void Bvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t last, int depth,
-                std::span<const Box> boxes) {
+Bvh::Child Bvh::build(std::uint32_t first, std::uint32_t last, int depth, std::span<const Box> boxes) {
   const std::span<std::uint32_t> numbers(order_.data() + first, last - first);
   Box box, middles;
   for (const std::uint32_t n : numbers) {
     const Vec3d m = middle(boxes[n]);
     box = hull(box, boxes[n]), middles = hull(middles, {m, m});
   }
-  nodes_[node].box = box;
 
   const std::uint32_t count = last - first;
   const Split split =
       count > leaf_size && depth < max_depth / 2 ? best_split(numbers, boxes, middles) : Split{};
   const bool worth_it = split.cost + step_cost * half_area(box) < half_area(box) * count;
   const bool must_stop = depth >= max_depth - 1;
-  if (count <= leaf_size || must_stop || (count <= largest_leaf && !worth_it)) {
-    nodes_[node].first = first, nodes_[node].count = count;
-    return;
-  }
+  if (count <= leaf_size || must_stop || (count <= largest_leaf && !worth_it)) return {box, first, count};
+
   // Boxes that no bin tells apart are halved: their order is as good as any.
   std::uint32_t half = first + count / 2;
   if (split.cost < infinity) {
@@ -99,11 +94,11 @@ void Bvh::build(std::uint32_t node, std::uint32_t first, std::uint32_t last, int
     half = first + static_cast<std::uint32_t>(right - numbers.begin());
     if (half == first || half == last) half = first + count / 2;
   }
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = children;
-  nodes_.emplace_back(), nodes_.emplace_back();
-  build(children, first, half, depth + 1, boxes);
-  build(children + 1, half, last, depth + 1, boxes);
+  const auto number = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  const Child left = build(first, half, depth + 1, boxes), right = build(half, last, depth + 1, boxes);
+  nodes_[number] = {{left, right}};
+  return {box, number, 0};
 }
 
 }  // namespace rayfarm

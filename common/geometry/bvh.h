@@ -12,57 +12,67 @@ namespace rayfarm {
 class Bvh {
  public:
   Bvh() = default;
-  /// Over boxes that are bounded and not empty; what visit() gets are their numbers in `boxes`.
+  /// Over boxes that are bounded and not empty.
   explicit Bvh(std::span<const Box> boxes);
 
-  /// Calls visit(number) for each box that the ray meets before t_max, roughly near to far. The visitor may
-  /// lower t_max, and ends the walk by returning false.
+  /// The numbers of the boxes in the order of the tree's leaves: who lays the contents out like this finds
+  /// them side by side.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+  /// Calls visit(place) for each box that the ray meets before t_max, roughly near to far; place is the
+  /// position in order(). The visitor may lower t_max, and ends the walk by returning false.
   template <class Visit>
   void visit(const RayQuery& ray, const double& t_max, Visit&& visit_box) const;
 
  private:
+  /// What stands below a node: boxes first .. first + count of order_, or for count 0 the node `first`.
+  struct Child {
+    Box box = nowhere();
+    std::uint32_t first = 0, count = 0;
+  };
   struct Node {
-    Box box;
-    std::uint32_t first = 0;  // of its boxes in order_, or of its two children in nodes_
-    std::uint32_t count = 0;  // of boxes; 0 for an inner node
+    Child child[2];
   };
   static constexpr int max_depth = 64;
 
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last, int depth,
-             std::span<const Box> boxes);
+  Child build(std::uint32_t first, std::uint32_t last, int depth, std::span<const Box> boxes);
 
+  Child root_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
 };
 
 template <class Visit>
 void Bvh::visit(const RayQuery& ray, const double& t_max, Visit&& visit_box) const {
-  if (nodes_.empty()) return;
   struct Waiting {
-    std::uint32_t node;
+    const Child* child;
     double entry;
   };
-  Waiting stack[max_depth + 1];
+  Waiting stack[max_depth];
   int waiting = 0;
-  const BoxSpan whole = span_in(nodes_[0].box, ray, t_max);
+  const BoxSpan whole = span_in(root_.box, ray, t_max);
   if (whole.entry > whole.exit) return;
-  stack[waiting++] = {0, whole.entry};
-  while (waiting > 0) {
-    const Waiting next = stack[--waiting];
-    if (next.entry > t_max) continue;
-    const Node& node = nodes_[next.node];
-    if (node.count > 0) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-        if (!visit_box(order_[i])) return;
-      continue;
+  const Child* next = &root_;
+  while (next) {
+    const Child* nearest = nullptr;
+    if (next->count > 0) {
+      for (std::uint32_t place = next->first; place < next->first + next->count; ++place)
+        if (!visit_box(place)) return;
+    } else {
+      const Node& node = nodes_[next->first];
+      const BoxSpan a = span_in(node.child[0].box, ray, t_max), b = span_in(node.child[1].box, ray, t_max);
+      const bool meets_a = a.entry <= a.exit, meets_b = b.entry <= b.exit;
+      if (meets_a && meets_b) {
+        const bool a_first = a.entry <= b.entry;
+        nearest = &node.child[a_first ? 0 : 1];
+        stack[waiting++] = {&node.child[a_first ? 1 : 0], a_first ? b.entry : a.entry};
+      } else if (meets_a || meets_b) {
+        nearest = &node.child[meets_a ? 0 : 1];
+      }
     }
-    const BoxSpan a = span_in(nodes_[node.first].box, ray, t_max);
-    const BoxSpan b = span_in(nodes_[node.first + 1].box, ray, t_max);
-    const bool meets_a = a.entry <= a.exit, meets_b = b.entry <= b.exit;
-    const bool a_first = a.entry <= b.entry;  // the nearer is put on the stack last
-    if (meets_b && a_first) stack[waiting++] = {node.first + 1, b.entry};
-    if (meets_a) stack[waiting++] = {node.first, a.entry};
-    if (meets_b && !a_first) stack[waiting++] = {node.first + 1, b.entry};
+    while (!nearest && waiting > 0)
+      if (const Waiting& last = stack[--waiting]; last.entry <= t_max) nearest = last.child;
+    next = nearest;
   }
 }
 

@@ -1,9 +1,5 @@
 #include "common/geometry/leaf.h"
 
-#include "common/geometry/cube.h"
-#include "common/geometry/cylinder.h"
-#include "common/geometry/plane.h"
-#include "common/geometry/sphere.h"
 #include "common/geometry/torus.h"
 
 namespace rayfarm {
@@ -152,14 +148,8 @@ Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local) {
 }
 
 Crossings crossings(const Leaf& leaf, const LocalRay<double>& ray) {
-  return std::visit(Overload{
-                        [&](const Sphere&) { return ahead(sphere_interval(ray)); },
-                        [&](const Cube&) { return ahead(cube_interval(ray)); },
-                        [&](const Plane&) { return ahead(plane_interval(ray)); },
-                        [&](const Cylinder& c) { return ahead(cylinder_interval(c, ray)); },
-                        [&](const Torus& t) { return torus_crossings(t, ray); },
-                    },
-                    leaf.solid);
+  if (is_convex(leaf)) return ahead(convex_interval(leaf, ray));
+  return torus_crossings(std::get<Torus>(leaf.solid), ray);
 }
 
 Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, bool inward) {

@@ -2,7 +2,11 @@
 #pragma once
 #include "common/geometry/bounds.h"
 #include "common/geometry/crossing.h"
+#include "common/geometry/cube.h"
+#include "common/geometry/cylinder.h"
+#include "common/geometry/plane.h"
 #include "common/geometry/ray.h"
+#include "common/geometry/sphere.h"
 #include "common/geometry/surface_point.h"
 #include "common/math/affine.h"
 #include "common/scene/scene.h"
@@ -44,6 +48,15 @@ inline LocalRay<double> to_local(const Leaf& leaf, const RayQuery& q) {
           {dot(leaf.row[0], d), dot(leaf.row[1], d), dot(leaf.row[2], d)},
           leaf.error_per_size * q.origin_size + leaf.error_constant + leaf.stretch * q.ray.origin_error,
           leaf.error_per_size * q.direction_size};
+}
+
+/// Convex solids have an interval; the others (tori) only a list of crossings.
+inline bool is_convex(const Leaf& leaf) { return !std::holds_alternative<Torus>(leaf.solid); }
+inline Interval<double> convex_interval(const Leaf& leaf, const LocalRay<double>& ray) {
+  if (std::holds_alternative<Sphere>(leaf.solid)) return sphere_interval(ray);
+  if (std::holds_alternative<Cube>(leaf.solid)) return cube_interval(ray);
+  if (std::holds_alternative<Plane>(leaf.solid)) return plane_interval(ray);
+  return cylinder_interval(std::get<Cylinder>(leaf.solid), ray);
 }
 
 /// The leaf's crossings ahead of the ray.

@@ -17,32 +17,40 @@ struct ObjectStart {
   Boundary first;
 };
 
-ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
-  const Crossings c = crossings_ahead(leaf, number, q);
-  ObjectStart start;
-  start.inside = c.starts_inside;
-  bool inside = c.starts_inside;
-  // Crossings that overlap are one event; an even number of them changes nothing.
-  for (int i = 0; i < c.count;) {
-    const Crossing& first = c.at[static_cast<std::size_t>(i)];
-    double hi = first.hi();
-    int last = i + 1;
-    while (last < c.count && c.at[static_cast<std::size_t>(last)].lo() <= hi)
-      hi = greatest(hi, c.at[static_cast<std::size_t>(last++)].hi());
-    if ((last - i) % 2 == 1) {
-      start.has_boundary = true;
-      start.first = {first.t, first.error, number, !inside, !inside};
-      return start;
-    }
-    i = last;
-  }
-  return start;
+ObjectStart starting(bool inside, const Bounded<double>& at, std::uint32_t leaf) {
+  const Crossing c = crossing_at(at);
+  return {inside, at.t < infinity, {c.t, c.error, leaf, !inside, !inside}};
 }
 
-ObjectStart start_of(const World::Parts& w, std::uint32_t object, const RayQuery& q, double t_max,
+/// A convex leaf alone: what is ahead of its interval, without a list.
+ObjectStart start_of_interval(const Interval<double>& i, std::uint32_t leaf) {
+  if (i.enter.lo > i.leave.hi || i.leave.lo <= 0) return {};
+  if (i.enter.lo <= 0) return starting(true, i.leave, leaf);
+  if (i.leave.lo <= i.enter.hi) return {};  // in and out within the error: one event without effect
+  return starting(false, i.enter, leaf);
+}
+
+/// Crossings that overlap are one event; an even number of them changes nothing.
+ObjectStart start_of_crossings(const Crossings& c, std::uint32_t leaf) {
+  const auto at = [&](int i) -> const Crossing& { return c.at[static_cast<std::size_t>(i)]; };
+  for (int i = 0, last = 0; i < c.count; i = last) {
+    double hi = at(i).hi();
+    for (last = i + 1; last < c.count && at(last).lo() <= hi; ++last) hi = greatest(hi, at(last).hi());
+    if ((last - i) % 2 == 1) return starting(c.starts_inside, {at(i).t, at(i).lo(), at(i).hi()}, leaf);
+  }
+  return {c.starts_inside, false, {}};
+}
+
+ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
+  if (number != q.ray.left_leaf && is_convex(leaf))
+    return start_of_interval(convex_interval(leaf, to_local(leaf, q)), number);
+  return start_of_crossings(crossings_ahead(leaf, number, q), number);
+}
+
+ObjectStart start_of(const World::Parts& w, const ObjectRef& ref, const RayQuery& q, double t_max,
                      WorldWorkspace& ws) {
-  const std::span<const CsgItem> items = w.items_of(w.objects[object]);
-  if (items.size() == 1) return start_of_leaf(w.leaves[items[0].leaf], items[0].leaf, q);
+  if (ref.leaf != no_leaf) return start_of_leaf(w.leaves[ref.leaf], ref.leaf, q);
+  const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
   ObjectStart start;
   start.inside = gather(items, w.leaves, q, t_max, ws.csg);
   std::size_t next = 0;
@@ -52,21 +60,21 @@ ObjectStart start_of(const World::Parts& w, std::uint32_t object, const RayQuery
 
 template <class Visit>
 void visit_objects(const World::Parts& w, const RayQuery& q, const double& t_max, Visit&& visit) {
-  for (const std::uint32_t object : w.endless_objects)
-    if (!visit(object)) return;
-  w.bvh.visit(q, t_max, [&](std::uint32_t number) { return visit(w.bounded_objects[number]); });
+  for (const ObjectRef& ref : w.endless_objects)
+    if (!visit(ref)) return;
+  w.bvh.visit(q, t_max, [&](std::uint32_t place) { return visit(w.bounded_objects[place]); });
 }
 
 /// The boundaries of all objects in order, and which objects the ray starts in.
 void gather_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
   ws.events.clear();
   ws.inside.assign(w.objects.size(), false);
-  visit_objects(w, q, infinity, [&](std::uint32_t object) {
-    const std::span<const CsgItem> items = w.items_of(w.objects[object]);
-    ws.inside[object] = gather(items, w.leaves, q, infinity, ws.csg);
+  visit_objects(w, q, infinity, [&](const ObjectRef& ref) {
+    const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
+    ws.inside[ref.object] = gather(items, w.leaves, q, infinity, ws.csg);
     Boundary b;
     for (std::size_t next = 0; next_boundary(items, ws.csg, next, b);)
-      ws.events.push_back({b.t - b.error, b.t + b.error, object, b});
+      ws.events.push_back({b.t - b.error, b.t + b.error, ref.object, b});
     return true;
   });
   std::sort(ws.events.begin(), ws.events.end(),
@@ -101,8 +109,8 @@ std::optional<Boundary> first_boundary(const World::Parts& w, const RayQuery& q,
   Boundary best{};
   std::uint32_t best_object = 0;
   double t_max = infinity;
-  visit_objects(w, q, t_max, [&](std::uint32_t object) {
-    const ObjectStart start = start_of(w, object, q, t_max, ws);
+  visit_objects(w, q, t_max, [&](const ObjectRef& ref) {
+    const ObjectStart start = start_of(w, ref, q, t_max, ws);
     if (start.inside) {
       starts_inside = true;
       return false;
@@ -111,8 +119,8 @@ std::optional<Boundary> first_boundary(const World::Parts& w, const RayQuery& q,
     const Boundary& b = start.first;
     // Surfaces within each other's error are one; the object that comes first in the scene is shown.
     const bool same = found && b.t - b.error <= best.t + best.error && best.t - best.error <= b.t + b.error;
-    if (!found || (same ? object < best_object : b.t < best.t)) {
-      found = true, best = b, best_object = object;
+    if (!found || (same ? ref.object < best_object : b.t < best.t)) {
+      found = true, best = b, best_object = ref.object;
       t_max = b.t + b.error;
     }
     return true;
@@ -124,8 +132,8 @@ std::optional<Boundary> first_boundary(const World::Parts& w, const RayQuery& q,
 
 bool is_blocked(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
   bool blocked = false;
-  visit_objects(w, q, 1.0, [&](std::uint32_t object) {
-    const ObjectStart start = start_of(w, object, q, 1.0, ws);
+  visit_objects(w, q, 1.0, [&](const ObjectRef& ref) {
+    const ObjectStart start = start_of(w, ref, q, 1.0, ws);
     blocked = start.has_boundary && start.first.t <= 1;
     return !blocked;
   });

@@ -103,23 +103,26 @@ class Builder {
 
   /// What lies outside the box of what it is combined with cannot matter.
   void cut(std::uint32_t first) {
-    for (std::size_t i = first + 1; i < parts_.items.size(); ++i)
-      parts_.items[i].box = overlap(parts_.items[i].box, parts_.items[first + parts_.items[i].parent].box);
+    for (std::size_t i = first; i < parts_.items.size(); ++i) {
+      Box& box = parts_.items[i].box;
+      box = overlap(box, parts_.items[first + parts_.items[i].parent].box);
+      if (box.is_empty()) box = nowhere();
+    }
   }
 
   void sort_objects() {
     std::vector<Box> boxes;
+    std::vector<ObjectRef> bounded;
     for (std::uint32_t i = 0; i < parts_.objects.size(); ++i) {
-      const Box& box = parts_.items[parts_.objects[i].first_item].box;
-      if (box.is_empty()) continue;  // never to be seen
-      if (!box.is_bounded()) {
-        parts_.endless_objects.push_back(i);
-        continue;
-      }
-      parts_.bounded_objects.push_back(i);
-      boxes.push_back(box);
+      const CsgItem& root = parts_.items[parts_.objects[i].first_item];
+      if (root.box.low.x == infinity) continue;  // nowhere
+      if (root.box.is_bounded())
+        bounded.push_back({i, root.leaf}), boxes.push_back(root.box);
+      else
+        parts_.endless_objects.push_back({i, root.leaf});
     }
     parts_.bvh = Bvh(boxes);
+    for (const std::uint32_t number : parts_.bvh.order()) parts_.bounded_objects.push_back(bounded[number]);
   }
 
   World::Parts& parts_;

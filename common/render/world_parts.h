@@ -24,6 +24,12 @@ struct WorldObject {
   std::uint32_t first_item = 0, item_count = 0;  // range of Parts::items
 };
 
+/// An object as the hierarchy's leaves name it.
+struct ObjectRef {
+  std::uint32_t object = 0;
+  std::uint32_t leaf = no_leaf;  // when the object is a single leaf
+};
+
 struct World::Parts {
   Scene scene;
   std::vector<Leaf> leaves;
@@ -33,9 +39,9 @@ struct World::Parts {
   std::vector<Texture> textures;
   std::vector<CsgItem> items;
   std::vector<WorldObject> objects;
-  std::vector<std::uint32_t> endless_objects;  // whose bounds are infinite: tried for every ray
-  std::vector<std::uint32_t> bounded_objects;  // what the hierarchy's numbers stand for
-  Bvh bvh;                                     // over bounded_objects
+  std::vector<ObjectRef> endless_objects;  // whose bounds are infinite: tried for every ray
+  std::vector<ObjectRef> bounded_objects;  // in the order of the hierarchy
+  Bvh bvh;
 
   std::span<const CsgItem> items_of(const WorldObject& object) const {
     return {items.data() + object.first_item, object.item_count};

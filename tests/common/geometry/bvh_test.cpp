@@ -28,7 +28,7 @@ TEST(Bvh, VisitsEveryBoxThatTheRayMeets) {
       if (i % 5 == 0) r.direction = {0, i % 2 ? 1.0 : -1.0, 0};
       const RayQuery q(r);
       std::set<std::uint32_t> visited;
-      bvh.visit(q, infinity, [&](std::uint32_t n) { return visited.insert(n).second; });
+      bvh.visit(q, infinity, [&](std::uint32_t place) { return visited.insert(bvh.order()[place]).second; });
       for (std::uint32_t n = 0; n < boxes.size(); ++n) {
         const BoxSpan span = span_in(boxes[n], q, infinity);
         ASSERT_TRUE(span.entry > span.exit || visited.contains(n));
