@@ -56,7 +56,7 @@ std::string reason(const HelperEnd& end, const ScriptLimits& limits) {
   if (end.kind == HelperEnd::Kind::output_too_long) return "the scene is too large";
   if (end.kind == HelperEnd::Kind::signalled && end.code == SIGXCPU)
     return "the script takes more than " + std::to_string(limits.cpu_seconds) +
-           " s of processor time inside one library call; a string pattern with many repetitions?";
+           " s of processor time: an endless loop, or a string pattern with many repetitions?";
   if (end.kind == HelperEnd::Kind::signalled)
     return "the evaluation was ended by signal " + std::to_string(end.code) +
            "; too little memory on this computer?";

@@ -1,4 +1,4 @@
-// What rayfarm-script is asked and answers, as bytes (CBOR; the scene inside is encode_scene's).
+// What rayfarm-script is asked and answers, as bytes: one line of JSON, then the script's text or the scene's bytes.
 #pragma once
 #include <string>
 #include <string_view>

@@ -17,6 +17,16 @@ extern "C" double pow(double base, double exponent) noexcept {
 namespace rayfarm {
 namespace {
 
+/// Calls Lua's own function, the upvalue of the running one, with the same arguments. Its complaints get the
+/// place of the script's call.
+int call_original(lua_State* L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  if (lua_pcall(L, lua_gettop(L) - 1, 1, 0) == LUA_OK) return 1;
+  push_error(L, lua_tostring(L, -1));
+  return lua_error(L);
+}
+
 // math: the same bits on every CPU.
 // ----------------------------------------------------------------------------
 
@@ -44,9 +54,7 @@ int math_log(lua_State* L) {
 /// Without a seed Lua takes the time.
 int math_randomseed(lua_State* L) {
   luaL_checknumber(L, 1);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 0);
+  call_original(L);
   return 0;
 }
 
@@ -89,12 +97,11 @@ int to_string(lua_State* L) {
   return 1;
 }
 
-/// string.format with the original as upvalue.
 int format(lua_State* L) {
   const std::string_view form = luaL_checkstring(L, 1);
   for (std::size_t i = 0; i + 1 < form.size(); ++i)
     if (form[i] == '%' && form[++i] == 'p')
-      return luaL_error(L, "string.format: %%p is not available in a scene script");
+      return luaL_error(L, "format: %%p is not available in a scene script");
   for (int i = 2, n = lua_gettop(L); i <= n; ++i) {
     if (lua_type(L, i) < LUA_TTABLE) continue;
     lua_pushcfunction(L, to_string);
@@ -102,10 +109,7 @@ int format(lua_State* L) {
     lua_call(L, 1, 1);
     lua_replace(L, i);
   }
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
-  return 1;
+  return call_original(L);
 }
 
 /// To the standard error stream, which the caller forwards; see script.h.
@@ -123,18 +127,19 @@ int print(lua_State* L) {
   return 0;
 }
 
-/// Finalizers run where no limit reaches them.
+/// Lua's setmetatable, but for finalizers, which run where no limit reaches them.
 int set_metatable(lua_State* L) {
   luaL_checktype(L, 1, LUA_TTABLE);
+  luaL_argexpected(L, lua_isnil(L, 2) || lua_istable(L, 2), 2, "nil or table");
+  if (luaL_getmetafield(L, 1, "__metatable") != LUA_TNIL)
+    return luaL_error(L, "cannot change a protected metatable");
   if (lua_istable(L, 2)) {
     lua_pushliteral(L, "__gc");
     if (lua_rawget(L, 2) != LUA_TNIL)
       return luaL_error(L, "setmetatable: __gc is not available in a scene script");
-    lua_pop(L, 1);
   }
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
+  lua_settop(L, 2);
+  lua_setmetatable(L, 1);
   return 1;
 }
 
@@ -187,8 +192,8 @@ void open_library(lua_State* L) {
   open_ordered(L);
   lua_register(L, "tostring", to_string);
   lua_register(L, "print", print);
+  lua_register(L, "setmetatable", set_metatable);
   wrap(L, "string", "format", format);
-  wrap(L, "_G", "setmetatable", set_metatable);
 }
 
 void make_globals_strict(lua_State* L) {

@@ -51,7 +51,9 @@ void LuaState::check_time(lua_State* L, lua_Debug* where) {
   lua_getallocf(L, &budget);
   const Budget& b = *static_cast<Budget*>(budget);
   if (thread_cpu_time() < b.cpu_end) return;
-  lua_sethook(L, check_time, LUA_MASKCOUNT, 1);  // from now on at each instruction: no pcall can carry on
+  // From now on at each instruction, so that no pcall can carry on, here or in the main thread.
+  lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_MAINTHREAD);
+  for (lua_State* thread : {L, lua_tothread(L, -1)}) lua_sethook(thread, check_time, LUA_MASKCOUNT, 1);
   lua_getinfo(L, "Sl", where);
   lua_pushfstring(L, "%s:%d: the script takes more than %d s of processor time, is this an endless loop?",
                   where->short_src, where->currentline, static_cast<int>(b.cpu.count()));
@@ -64,8 +66,10 @@ void LuaState::call(int arguments, int results) {
   if (status == LUA_ERRMEM)
     throw SceneError("not enough memory: the script's values take more than " +
                      std::to_string(budget_.memory_bytes >> 20) + " MB");
-  throw SceneError(lua_type(state_, -1) == LUA_TSTRING ? lua_tostring(state_, -1)
-                                                       : "the error is " + description(state_, -1));
+  if (lua_type(state_, -1) != LUA_TSTRING) throw SceneError("the error is " + description(state_, -1));
+  const std::string message = lua_tostring(state_, -1);
+  const bool too_deep = message.ends_with("C stack overflow");
+  throw SceneError(too_deep ? message + ": expressions, tables or calls are nested too deep" : message);
 }
 
 }  // namespace rayfarm
