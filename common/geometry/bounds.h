@@ -43,7 +43,8 @@ struct BoxSpan {
 };
 
 inline BoxSpan span_in(const Box& box, const RayQuery& q, double t_max) {
-  double entry = 0, exit = t_max;
+  // Finite, so that what is infinitely far (nowhere) is missed.
+  double entry = 0, exit = least(t_max, std::numeric_limits<double>::max());
   for (int axis = 0; axis < 3; ++axis) {
     const double o = q.ray.origin[axis], inverse = q.inverse[axis];
     const double a = (box.low[axis] - o) * inverse, b = (box.high[axis] - o) * inverse;
