@@ -78,8 +78,7 @@ Connection<In, Out>::Connection(asio::ip::tcp::socket socket, ConnectionTimes ti
   socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
 }
 
-// Ends.
-// --------------------------------------------------------------------------------------------------------
+// Ends. ----------------------------------------------------------------------------------------------------
 
 template <class In, class Out>
 void Connection<In, Out>::finish() {
@@ -98,8 +97,13 @@ asio::awaitable<void> Connection<In, Out>::tend() {
   return until_first_ends(write(), watch());
 }
 
-// Outgoing.
-// ----------------------------------------------------------------------------------------------------
+template <class In, class Out>
+asio::awaitable<void> Connection<In, Out>::wait_for_end() {
+  asio::steady_timer never(socket_.get_executor(), Clock::time_point::max());
+  co_await never.async_wait(asio::use_awaitable);
+}
+
+// Outgoing. ------------------------------------------------------------------------------------------------
 
 template <class In, class Out>
 void Connection<In, Out>::post(const Out& message) {
@@ -136,8 +140,7 @@ asio::awaitable<void> Connection<In, Out>::write() try {
   lose(error);
 }
 
-// Time.
-// --------------------------------------------------------------------------------------------------------
+// Time. ----------------------------------------------------------------------------------------------------
 
 template <class In, class Out>
 typename Connection<In, Out>::Clock::time_point Connection<In, Out>::due(std::size_t bytes) const {
@@ -188,8 +191,7 @@ asio::awaitable<void> Connection<In, Out>::watch() {
   }
 }
 
-// Incoming.
-// ----------------------------------------------------------------------------------------------------
+// Incoming. ------------------------------------------------------------------------------------------------
 
 template <class In, class Out>
 void Connection<In, Out>::make_room(std::size_t size) {

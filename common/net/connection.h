@@ -47,9 +47,12 @@ class Connection {
   asio::awaitable<void> tend();
   /// The next message other than Heartbeat. Throws ConnectionLost, or CodecError on what cannot be a message.
   asio::awaitable<In> receive();
+  /// For the other loop, when it has nothing more to do than to let tend() end.
+  asio::awaitable<void> wait_for_end();
   /// The next message must come within this time, or tend() throws.
   void expect_message_within(std::chrono::milliseconds patience);
 
+  asio::any_io_executor executor() { return socket_.get_executor(); }
   /// The other end, as ADDRESS:PORT.
   const std::string& peer() const { return peer_; }
 

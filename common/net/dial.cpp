@@ -59,6 +59,19 @@ tcp::acceptor listen_at(asio::io_context& io, const Address& address, Exposure e
   }
 }
 
+asio::awaitable<tcp::socket> accept(tcp::acceptor& acceptor) {
+  asio::steady_timer pause(acceptor.get_executor());
+  for (;;) {
+    tcp::socket socket(acceptor.get_executor());
+    asio::error_code error;
+    co_await acceptor.async_accept(socket, asio::redirect_error(asio::use_awaitable, error));
+    if (!error) co_return socket;
+    if (error == asio::error::operation_aborted) throw asio::system_error(error);
+    pause.expires_after(std::chrono::milliseconds(100));
+    co_await pause.async_wait(asio::use_awaitable);
+  }
+}
+
 asio::awaitable<tcp::socket> dial(Address address, Exposure exposure, std::chrono::milliseconds patience) {
   tcp::socket socket(co_await asio::this_coro::executor);
   auto attempt = until_first_ends(connect(socket, address, exposure), give_up_after(patience, address));

@@ -15,6 +15,9 @@ enum class Exposure : bool { loopback_only, insecure };
 /// it.
 asio::ip::tcp::acceptor listen_at(asio::io_context& io, const Address& address, Exposure exposure);
 
+/// The next one who connects. Waits while this process has no file descriptor left.
+asio::awaitable<asio::ip::tcp::socket> accept(asio::ip::tcp::acceptor& acceptor);
+
 /// Connects within `patience`. Throws AddressError when there is no such host, ExposureError when it is
 /// another PC and plaintext was not allowed, ConnectionLost when nobody answers.
 asio::awaitable<asio::ip::tcp::socket> dial(Address address, Exposure exposure,

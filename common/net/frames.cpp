@@ -32,8 +32,7 @@ struct FrameTypes<std::variant<Messages...>> {
   static constexpr std::array limits{payload_limit<Messages>...};
 };
 
-// Payloads.
-// ----------------------------------------------------------------------------------------------------
+// Payloads. ------------------------------------------------------------------------------------------------
 
 template <class Message>
 SharedBytes write_payload(Bytes& out, const Message& message) {
@@ -97,8 +96,7 @@ void read_payload(ByteView payload, Result& result) {
   }
 }
 
-// Frames.
-// ------------------------------------------------------------------------------------------------------
+// Frames. --------------------------------------------------------------------------------------------------
 
 std::uint32_t crc_of(ByteView bytes, std::uint32_t before = 0) {
   return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));

@@ -9,6 +9,7 @@
 #include <asio/write.hpp>
 
 #include "common/net/dial.h"
+#include "common/net/run_until_end.h"
 #include "common/net/until_first_ends.h"
 #include "tests/common/net/random_messages.h"
 
@@ -32,19 +33,14 @@ struct Sockets {
     acceptor.accept(ours);
   }
 
-  /// Runs a coroutine to its end; what it threw is its answer, else "".
+  /// Runs a coroutine to its end; what it threw is the answer, else "".
   std::string run(asio::awaitable<void> loop) {
-    std::string thrown;
-    asio::co_spawn(io, std::move(loop), [&](std::exception_ptr error) {
-      if (error) try {
-          std::rethrow_exception(error);
-        } catch (const std::exception& e) {
-          thrown = e.what();
-        }
-      io.stop();
-    });
-    io.run();
-    return thrown;
+    try {
+      run_until_end(io, std::move(loop));
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
   }
 };
 
@@ -232,11 +228,7 @@ asio::awaitable<void> try_to_dial(Address address, Exposure exposure) {
 template <class Error>
 void expect_dial_fails(const Address& address, Exposure exposure) {
   asio::io_context io;
-  std::exception_ptr thrown;
-  asio::co_spawn(io, try_to_dial(address, exposure), [&](std::exception_ptr error) { thrown = error; });
-  io.run();
-  ASSERT_TRUE(thrown);
-  EXPECT_THROW(std::rethrow_exception(thrown), Error);
+  EXPECT_THROW(run_until_end(io, try_to_dial(address, exposure)), Error);
 }
 
 TEST(Dial, SaysWhatIsWrongWithTheAddress) {

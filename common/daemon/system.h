@@ -1,0 +1,15 @@
+// What a daemon knows of the PC that it runs on, and tells the service manager.
+#pragma once
+#include <string>
+
+namespace rayfarm {
+
+std::string host_name();
+/// As the kernel names it; empty where it does not.
+std::string cpu_name();
+
+/// Tell systemd, if it started us (and we were built with it).
+void notify_ready();
+void notify_stopping();
+
+}  // namespace rayfarm

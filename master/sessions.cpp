@@ -1,0 +1,201 @@
+#include "master/sessions.h"
+
+#include <spdlog/spdlog.h>
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/redirect_error.hpp>
+
+#include "common/net/until_first_ends.h"
+#include "master/hand_in.h"
+
+namespace rayfarm {
+namespace {
+
+using asio::ip::tcp;
+
+constexpr std::uint32_t most_threads = 4096;
+
+/// Why a worker that opens with this is not taken in; empty when it is.
+std::string objection_to(const ToMaster& first) {
+  if (const auto* goodbye = std::get_if<Goodbye>(&first)) return "it said goodbye: " + goodbye->reason;
+  const auto* hello = std::get_if<Hello>(&first);
+  if (!hello) return "the first message must be Hello";
+  if (hello->protocol != protocol_version)
+    return "rayfarm " + hello->version + " speaks protocol " + std::to_string(hello->protocol) +
+           ", this master (" RAYFARM_VERSION ") protocol " + std::to_string(protocol_version) +
+           ": install the same version on both PCs";
+  if (hello->name.empty()) return "a worker needs a name: give it one with --name";
+  if (hello->threads == 0 || hello->threads > most_threads)
+    return "a worker has 1 to " + std::to_string(most_threads) + " threads, not " +
+           std::to_string(hello->threads);
+  return "";
+}
+
+}  // namespace
+
+DialTarget parse_dial_target(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string_view::npos)
+    throw AddressError("\"" + std::string(text) +
+                       "\" is no worker to dial: write NAME=HOST or NAME=HOST:PORT");
+  return {std::string(text.substr(0, equals)), parse_address(text.substr(equals + 1), default_farm_port)};
+}
+
+struct Sessions::Session {
+  WorkerConnection connection;
+  std::string name;                // if we dialled it
+  std::optional<WorkerId> worker;  // once it is admitted
+  std::string farewell;            // what it said when it went
+};
+
+Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Exposure exposure,
+                   DoorTimes times)
+    : io_(io),
+      farm_(farm),
+      exposure_(exposure),
+      times_(times),
+      acceptor_(listen_at(io, listen, exposure)),
+      listening_at_{acceptor_.local_endpoint().address().to_string(), acceptor_.local_endpoint().port()},
+      ended_(io, std::chrono::steady_clock::time_point::max()) {}
+
+asio::awaitable<void> Sessions::run() { return until_first_ends(accept_all(), wait_until_stopped()); }
+
+void Sessions::stop() {
+  stopping_ = true;
+  for (Session* session : sessions_) {
+    session->connection.post(Goodbye{"the master stops"});
+    session->connection.finish();
+  }
+  ended_.cancel();
+}
+
+asio::awaitable<void> Sessions::wait_until_stopped() {
+  while (!stopping_ || !sessions_.empty()) {
+    asio::error_code woken;
+    co_await ended_.async_wait(asio::redirect_error(asio::use_awaitable, woken));
+  }
+}
+
+// How workers come. ----------------------------------------------------------------------------------------
+
+asio::awaitable<void> Sessions::accept_all() {
+  for (;;) {
+    tcp::socket socket = co_await accept(acceptor_);
+    asio::co_spawn(io_, serve_stranger(std::move(socket)), asio::detached);
+  }
+}
+
+asio::awaitable<void> Sessions::serve_stranger(tcp::socket socket) {
+  asio::error_code unknown;
+  const tcp::endpoint peer = socket.remote_endpoint(unknown);
+  auto serving = serve(std::move(socket), "");
+  const std::string fault = co_await std::move(serving);
+  if (!fault.empty()) spdlog::warn("no worker at {}: {}", peer.address().to_string(), fault);
+}
+
+void Sessions::dial(DialTarget target) {
+  asio::co_spawn(io_, keep_dialled(std::move(target)), asio::detached);
+}
+
+asio::awaitable<void> Sessions::keep_dialled(DialTarget target) {
+  Backoff backoff(times_.backoff, std::random_device{}());
+  asio::steady_timer timer(io_);
+  std::string last_fault;
+  while (!stopping_) {
+    auto attempt = try_target(target);
+    const std::string fault = co_await std::move(attempt);
+    if (fault.empty()) backoff.reset();
+    if (!fault.empty() && fault != last_fault)
+      spdlog::warn("worker \"{}\": {}; trying again", target.name, fault);
+    last_fault = fault;
+    timer.expires_after(backoff.next());
+    co_await timer.async_wait(asio::use_awaitable);
+  }
+}
+
+/// Why there was no worker; empty after one that there was has gone.
+asio::awaitable<std::string> Sessions::try_target(DialTarget target) {
+  std::string fault;
+  try {
+    auto dialling = rayfarm::dial(target.address, exposure_, times_.connection.handshake);
+    tcp::socket socket = co_await std::move(dialling);
+    auto serving = serve(std::move(socket), target.name);
+    fault = co_await std::move(serving);
+  } catch (const AddressError& error) {
+    fault = error.what();
+  } catch (const ConnectionLost& error) {
+    fault = error.what();
+  }
+  co_return fault;
+}
+
+// A conversation. ------------------------------------------------------------------------------------------
+
+/// Why the peer was not admitted; empty after the conversation with one that was.
+asio::awaitable<std::string> Sessions::serve(tcp::socket socket, std::string name) {
+  Session session{{std::move(socket), times_.connection}, std::move(name), {}, {}};
+  sessions_.insert(&session);
+  std::string reason;
+  try {
+    auto loops = until_first_ends(session.connection.tend(), converse(session));
+    co_await std::move(loops);
+    reason = stopping_ ? "the master stops" : session.farewell;
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  sessions_.erase(&session);
+  ended_.cancel();
+  if (!session.worker) co_return reason;
+  farm_.apply([&](Farm& farm, FarmTime now) {
+    if (stopping_) farm.receive(*session.worker, GiveBack{}, now);  // it is not lost, we stop
+    farm.remove_worker(*session.worker, reason, now);
+  });
+  co_return "";
+}
+
+asio::awaitable<void> Sessions::converse(Session& session) {
+  session.connection.expect_message_within(times_.connection.handshake);
+  try {
+    const ToMaster first = co_await session.connection.receive();
+    open(session, first);
+  } catch (const CodecError& error) {
+    refuse(session, error.what());
+  }
+  if (!session.worker) co_await session.connection.wait_for_end();
+  for (;;) {
+    ToMaster message = co_await session.connection.receive();
+    if (const auto* goodbye = std::get_if<Goodbye>(&message)) {
+      session.farewell = "it said goodbye: " + goodbye->reason;
+      co_return;
+    }
+    hand_in(farm_, *session.worker, std::move(message));
+  }
+}
+
+void Sessions::open(Session& session, const ToMaster& first) {
+  const std::string objection = objection_to(first);
+  if (objection.empty())
+    admit(session, std::get<Hello>(first));
+  else
+    refuse(session, objection);
+}
+
+void Sessions::refuse(Session& session, const std::string& objection) {
+  session.farewell = objection;
+  session.connection.post(Refused{objection});
+  session.connection.finish();
+}
+
+void Sessions::admit(Session& session, const Hello& hello) {
+  const WorkerInfo info{session.name.empty() ? hello.name : session.name,
+                        session.connection.peer(),
+                        hello.cpu,
+                        hello.version,
+                        hello.threads,
+                        WorkerKind::remote};
+  const auto send = [&connection = session.connection](const ToWorker& message) { connection.post(message); };
+  session.worker = farm_.apply([&](Farm& farm, FarmTime now) { return farm.add_worker(info, send, now); });
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,69 @@
+// The master's door for workers: listens, dials, and translates between connections and the farm.
+#pragma once
+#include <asio/io_context.hpp>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+
+#include "common/net/backoff.h"
+#include "common/net/connection.h"
+#include "common/net/dial.h"
+#include "master/live_farm.h"
+
+namespace rayfarm {
+
+/// A worker that waits to be dialled; the farm calls it by this name.
+struct DialTarget {
+  std::string name;
+  Address address;
+};
+/// NAME=HOST[:PORT]. Throws AddressError.
+DialTarget parse_dial_target(std::string_view text);
+
+struct DoorTimes {
+  ConnectionTimes connection;
+  BackoffTimes backoff;
+};
+
+/// All calls are made from the thread that runs `io`, which is the farm's.
+class Sessions {
+ public:
+  /// Listens from now on; throws AddressError when it cannot.
+  Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Exposure exposure,
+           DoorTimes times = {});
+
+  const Address& listening_at() const { return listening_at_; }
+  /// Dials, and again whenever the worker is lost. Why it cannot be reached is logged, once for each reason.
+  void dial(DialTarget target);
+  /// Takes workers in. Returns after stop(), once all are gone.
+  asio::awaitable<void> run();
+  /// Says goodbye to all.
+  void stop();
+
+ private:
+  struct Session;
+
+  asio::awaitable<void> accept_all();
+  asio::awaitable<void> keep_dialled(DialTarget target);
+  asio::awaitable<std::string> try_target(DialTarget target);
+  asio::awaitable<void> serve_stranger(asio::ip::tcp::socket socket);
+  asio::awaitable<std::string> serve(asio::ip::tcp::socket socket, std::string name);
+  asio::awaitable<void> converse(Session& session);
+  void open(Session& session, const ToMaster& first);
+  void admit(Session& session, const Hello& hello);
+  void refuse(Session& session, const std::string& objection);
+  asio::awaitable<void> wait_until_stopped();
+
+  asio::io_context& io_;
+  LiveFarm& farm_;
+  Exposure exposure_;
+  DoorTimes times_;
+  asio::ip::tcp::acceptor acceptor_;
+  Address listening_at_;
+  std::set<Session*> sessions_;
+  asio::steady_timer ended_;  // never expires: cancelled when a session ends, or all shall
+  bool stopping_ = false;
+};
+
+}  // namespace rayfarm

@@ -1,0 +1,123 @@
+#include "worker/worker.h"
+
+#include <spdlog/spdlog.h>
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/redirect_error.hpp>
+
+#include "common/net/until_first_ends.h"
+
+namespace rayfarm {
+
+using asio::ip::tcp;
+
+Worker::Worker(asio::io_context& io, WorkerOptions options, PrepareScene prepare)
+    : io_(io),
+      options_(std::move(options)),
+      crew_(options_.identity.threads, std::move(prepare)),
+      backoff_(options_.backoff, std::random_device{}()),
+      ended_(io, std::chrono::steady_clock::time_point::max()) {
+  if (const auto* await = std::get_if<AwaitMaster>(&options_.way))
+    acceptor_ = listen_at(io, await->listen, options_.exposure);
+}
+
+std::optional<Address> Worker::listening_at() const {
+  if (!acceptor_) return std::nullopt;
+  const tcp::endpoint endpoint = acceptor_->local_endpoint();
+  return Address{endpoint.address().to_string(), endpoint.port()};
+}
+
+asio::awaitable<void> Worker::run() {
+  const auto* dialling = std::get_if<DialMaster>(&options_.way);
+  return until_first_ends(dialling ? keep_dialling(dialling->master) : await_masters(), wait_until_stopped());
+}
+
+void Worker::stop() {
+  stopping_ = true;
+  if (session_) session_->stop();
+  ended_.cancel();
+}
+
+asio::awaitable<void> Worker::wait_until_stopped() {
+  while (!stopping_ || session_) {
+    asio::error_code woken;
+    co_await ended_.async_wait(asio::redirect_error(asio::use_awaitable, woken));
+  }
+  spdlog::info("stopped");
+}
+
+/// One line for each thing that went wrong, not for each attempt.
+void Worker::report(const std::string& loss) {
+  if (loss != last_loss_) spdlog::warn("{}; trying again", loss);
+  last_loss_ = loss;
+}
+
+// A worker that dials. -------------------------------------------------------------------------------------
+
+asio::awaitable<void> Worker::keep_dialling(Address master) {
+  asio::steady_timer timer(io_);
+  while (!stopping_) {
+    auto attempt = try_master(master);
+    co_await std::move(attempt);
+    timer.expires_after(backoff_.next());
+    co_await timer.async_wait(asio::use_awaitable);
+  }
+}
+
+asio::awaitable<void> Worker::try_master(Address master) {
+  try {
+    auto dialling = dial(master, options_.exposure, options_.times.connection.handshake);
+    tcp::socket socket = co_await std::move(dialling);
+    auto talking = talk(std::move(socket));
+    co_await std::move(talking);
+  } catch (const ExposureError&) {
+    throw;
+  } catch (const AddressError& error) {
+    report(error.what());
+  } catch (const ConnectionLost& error) {
+    report(error.what());
+  }
+}
+
+// A worker that is dialled. --------------------------------------------------------------------------------
+
+asio::awaitable<void> Worker::await_masters() {
+  for (;;) {
+    tcp::socket socket = co_await accept(*acceptor_);
+    asio::co_spawn(io_, session_ ? decline(std::move(socket)) : talk(std::move(socket)), asio::detached);
+  }
+}
+
+asio::awaitable<void> Worker::decline(tcp::socket socket) {
+  MasterConnection connection(std::move(socket), options_.times.connection);
+  connection.post(Goodbye{"this worker works for another master"});
+  connection.finish();
+  co_await connection.tend();
+}
+
+// Both. ----------------------------------------------------------------------------------------------------
+
+asio::awaitable<void> Worker::talk(tcp::socket socket) {
+  const auto session =
+      std::make_shared<WorkerSession>(std::move(socket), options_.identity, crew_, options_.times);
+  session_ = session;
+  if (stopping_) session->stop();
+  std::string loss;
+  try {
+    co_await session->run();
+  } catch (const std::exception& error) {
+    loss = error.what();
+  }
+  if (session->was_welcomed()) {
+    backoff_.reset();
+    last_loss_.clear();
+  }
+  if (!loss.empty() && !stopping_)
+    report("no longer connected to the master at " + session->peer() + ": " + loss);
+  crew_.abandon();
+  session_.reset();
+  ended_.cancel();
+}
+
+}  // namespace rayfarm

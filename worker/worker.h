@@ -1,0 +1,64 @@
+// The worker: keeps a conversation with its master going, whatever happens, until it is stopped.
+#pragma once
+#include <asio/io_context.hpp>
+#include <memory>
+#include <optional>
+#include <random>
+#include <variant>
+
+#include "common/net/backoff.h"
+#include "common/net/dial.h"
+#include "worker/session.h"
+
+namespace rayfarm {
+
+struct DialMaster {
+  Address master;
+};
+struct AwaitMaster {
+  Address listen;
+};
+
+struct WorkerOptions {
+  std::variant<DialMaster, AwaitMaster> way;
+  WorkerIdentity identity;
+  Exposure exposure = Exposure::loopback_only;
+  SessionTimes times;
+  BackoffTimes backoff;
+};
+
+/// All calls are made from the thread that runs `io`.
+class Worker {
+ public:
+  /// Throws AddressError when it cannot listen where it should.
+  Worker(asio::io_context& io, WorkerOptions options, PrepareScene prepare = prepare_scene);
+
+  /// Returns after a clean stop; throws ExposureError when the master is on another PC, and that was not
+  /// allowed.
+  asio::awaitable<void> run();
+  void stop();
+
+  /// Where it listens, if it does.
+  std::optional<Address> listening_at() const;
+
+ private:
+  asio::awaitable<void> keep_dialling(Address master);
+  asio::awaitable<void> try_master(Address master);
+  asio::awaitable<void> await_masters();
+  asio::awaitable<void> talk(asio::ip::tcp::socket socket);
+  asio::awaitable<void> decline(asio::ip::tcp::socket socket);
+  asio::awaitable<void> wait_until_stopped();
+  void report(const std::string& loss);
+
+  asio::io_context& io_;
+  WorkerOptions options_;
+  Crew crew_;
+  Backoff backoff_;
+  std::optional<asio::ip::tcp::acceptor> acceptor_;
+  std::shared_ptr<WorkerSession> session_;  // while there is one
+  asio::steady_timer ended_;                // never expires: cancelled when a session ends, or all shall
+  bool stopping_ = false;
+  std::string last_loss_;
+};
+
+}  // namespace rayfarm
