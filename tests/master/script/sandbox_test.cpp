@@ -142,20 +142,31 @@ TEST(Sandbox, AScriptThatCannotBeReadIsNamed) {
 // The helper, whatever it does.
 // --------------------------------------------------------------------------------
 
+HelperEnd shell(const std::string& commands) { return run_helper({"/bin/sh", commands, 10s, 100'000, {}}); }
+
 TEST(Spawn, AHelperThatNeitherReadsNorEndsIsKilledInTime) {
-  const std::string large(10 << 20, 'x');  // more than any socket buffer takes
-  const HelperEnd end = run_helper({"/bin/sleep", large, 100ms, 1000, {}});
-  EXPECT_EQ(end.kind, HelperEnd::Kind::exited);  // sleep without an argument complains and ends
-  EXPECT_EQ(run_helper({"/usr/bin/yes", "", 10s, 100'000, {}}).kind, HelperEnd::Kind::output_too_long);
+  const std::string endless = "while :; do :; done\n";
+  EXPECT_EQ(run_helper({"/bin/sh", endless, 100ms, 1000, {}}).kind, HelperEnd::Kind::timed_out);
+  const std::string more_than_is_read = endless + std::string(10 << 20, 'x');
+  EXPECT_EQ(run_helper({"/bin/sh", more_than_is_read, 100ms, 1000, {}}).kind, HelperEnd::Kind::timed_out);
+  EXPECT_EQ(shell("while :; do echo more and more; done").kind, HelperEnd::Kind::output_too_long);
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no child is left";
 }
 
-TEST(Spawn, AHelperHasItsInputAndNothingElse) {
-  EXPECT_EQ(run_helper({"/bin/cat", "abc", 10s, 1000, {}}).output, "abc");
+TEST(Spawn, HowAHelperEndedIsTold) {
+  EXPECT_EQ(shell("echo abc").output, "abc\n");
+  EXPECT_EQ(shell("exit 3").code, 3);
+  EXPECT_EQ(shell("kill -9 $$").kind, HelperEnd::Kind::signalled);
+            HelperEnd::Kind::signalled);  // it will say no more: killed
+  EXPECT_THROW(run_helper({"/nowhere/helper", "", 10s, 1000, {}}), std::system_error);
+}
+
+TEST(Spawn, AHelperHasItsThreeStreamsAndNothingElse) {
+  EXPECT_EQ(shell("for i in 3 4 5 6 7 8 9; do [ -e /proc/$$/fd/$i ] && echo $i; done; true").output, "");
   EXPECT_EQ(run_helper({"/usr/bin/env", "", 10s, 1000, {}}).output, "");
   std::string talk;
-  run_helper({"/bin/ls", "", 10s, 1000, [&](std::string_view s) { talk += s; }});
-  EXPECT_THROW(run_helper({"/nowhere/helper", "", 10s, 1000, {}}), std::system_error);
+  run_helper({"/bin/sh", "echo hello >&2", 10s, 1000, [&](std::string_view s) { talk += s; }});
+  EXPECT_EQ(talk, "hello\n");
 }
 
 TEST(Spawn, AnswersThatNoSoundChildSendsAreRefused) {
