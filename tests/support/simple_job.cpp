@@ -47,6 +47,7 @@ PrepareScene Gate::prepare() {
       while (!open_) {
         if (stop()) {
           ++stopped_;
+          stopped_.notify_all();
           return std::nullopt;
         }
         std::this_thread::yield();
@@ -56,9 +57,16 @@ PrepareScene Gate::prepare() {
   };
 }
 
-void Gate::wait_for_begun(int tiles) {
-  for (int now = begun_; now < tiles; now = begun_) begun_.wait(now);
+namespace {
+
+void wait_for(const std::atomic<int>& count, int least) {
+  for (int now = count; now < least; now = count) count.wait(now);
 }
+
+}  // namespace
+
+void Gate::wait_for_begun(int tiles) { wait_for(begun_, tiles); }
+void Gate::wait_for_stopped(int tiles) { wait_for(stopped_, tiles); }
 
 void Gate::open() { open_ = true; }
 

@@ -24,9 +24,10 @@ class Gate {
   PrepareScene prepare();
   /// Waits until so many tiles have been begun in all.
   void wait_for_begun(int tiles);
-  void open();
-  /// How many were told to stop.
+  /// Waits until so many have been told to stop.
+  void wait_for_stopped(int tiles);
   int stopped() const { return stopped_; }
+  void open();
 
  private:
   std::atomic<int> begun_{0}, stopped_{0};
