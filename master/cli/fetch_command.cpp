@@ -9,6 +9,7 @@
 #include "master/cli/job_picture.h"
 #include "master/cli/master_api.h"
 #include "master/cli/text.h"
+#include "master/cli/whole_number.h"
 
 namespace rayfarm {
 namespace {
@@ -55,7 +56,7 @@ ExitCode fetch(const FetchArguments& a) {
 void add_fetch_command(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<FetchArguments>();
   CLI::App* command = app.add_subcommand("fetch", "Write a job's picture to a file");
-  command->add_option("ID", arguments->id, "The job's number")->required();
+  command->add_option("ID", arguments->id, "The job's number")->required()->check(whole_number());
   command->add_option("-o,--output", arguments->output,
                       "File, .exr or .png (default: the one that submit named)");
   command->add_flag("--partial", arguments->partial, "Also when pixels are missing; the exit code is then 7");

@@ -9,6 +9,7 @@
 #include "master/cli/job_progress.h"
 #include "master/cli/master_api.h"
 #include "master/cli/text.h"
+#include "master/cli/whole_number.h"
 
 namespace rayfarm {
 namespace {
@@ -127,7 +128,9 @@ CLI::App* add_for_job(CLI::App& app, Command& chosen, const std::string& name, c
                       std::function<ExitCode(const JobArguments&)> run) {
   const auto arguments = std::make_shared<JobArguments>();
   CLI::App* command = add(app, chosen, name, help, arguments, std::move(run));
-  command->add_option("ID", arguments->id, "The job's number, as submit and jobs show it")->required();
+  command->add_option("ID", arguments->id, "The job's number, as submit and jobs show it")
+      ->required()
+      ->check(whole_number());
   if (name == "priority")
     command->add_option("N", arguments->priority, "0 to 99, higher first")
         ->required()

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "common/net/codec.h"
+#include "master/cli/whole_number.h"
 #include "master/script/script.h"
 
 namespace rayfarm {
@@ -40,7 +41,7 @@ void add_picture_options(CLI::App& command, PictureOptions& o) {
   command.add_option("--size", o.size, "Width and height in pixels, e.g. 640x480");
   command.add_option("--spp", o.spp, "Samples per pixel (default 16)");
   command.add_option("--sampler", o.sampler, "sobol (default), jitter, regular or random");
-  command.add_option("--seed", o.seed, "Seed of the random numbers (default 0)");
+  command.add_option("--seed", o.seed, "Seed of the random numbers (default 0)")->check(whole_number());
   command.add_option("--depth", o.max_depth,
                      "Deepest recursion of reflected and refracted rays (default 12)");
   command.add_option("--min-importance", o.min_importance,

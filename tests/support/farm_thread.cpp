@@ -15,6 +15,7 @@ FarmTime now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 /// What a worker knows: its scenes and jobs.
 struct Renderer {
   WorkerId id{};
+  int tiles_left = 0;
   std::map<std::string, std::shared_ptr<const World>> worlds;
   std::map<JobId, JobStart> jobs;
 
@@ -68,15 +69,16 @@ void FarmThread::run(const Task& task) {
   done.get_future().wait();
 }
 
-void FarmThread::add_renderer(const std::string& name) {
+void FarmThread::add_renderer(const std::string& name, int tiles) {
   const auto renderer = std::make_shared<Renderer>();
+  renderer->tiles_left = tiles;
   const auto send = [this, renderer](ToWorker message) {
     if (const auto* scene = std::get_if<SceneData>(&message))
       renderer->worlds[scene->hash] = std::make_shared<const World>(decode_scene(*scene->bytes));
     if (const auto* job = std::get_if<JobStart>(&message)) renderer->jobs[job->job] = *job;
     if (const auto* assignment = std::get_if<Assignment>(&message))
       post([renderer, a = *assignment](Farm& farm, FarmTime time) {
-        farm.receive(renderer->id, renderer->render(a), time);
+        if (renderer->tiles_left-- > 0) farm.receive(renderer->id, renderer->render(a), time);
       });
   };
   run([&](Farm& farm, FarmTime time) {

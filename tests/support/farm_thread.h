@@ -25,8 +25,8 @@ class FarmThread {
   /// Runs the task on the farm's thread and waits for its end.
   void run(const Task& task);
 
-  /// A worker that renders what it is given, really, on the farm's thread.
-  void add_renderer(const std::string& name);
+  /// A worker that renders what it is given, really, on the farm's thread; so many tiles, then it is silent.
+  void add_renderer(const std::string& name, int tiles = 1'000'000);
   /// A worker that takes work and never answers.
   void add_idler(const std::string& name);
 
