@@ -131,20 +131,43 @@ double local_size(const Solid& solid) {
                     solid);
 }
 
+/// A range along a world axis, with the transform's error for local points of that size.
+void put(Box& box, int axis, const Extent& e, double size, const BoundedAffine& m) {
+  const double offset = m.map.offset[axis];
+  const double by =
+      row_sum(m.linear_error, axis) * size + m.offset_error[axis] + 4 * unit_roundoff * std::fabs(offset);
+  box.low[axis] = e.low + offset - by - 8 * unit_roundoff * std::fabs(e.low);
+  box.high[axis] = e.high + offset + by + 8 * unit_roundoff * std::fabs(e.high);
+}
+
 }  // namespace
 
 Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local) {
   Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Extent e = extent(solid, row_of(world_from_local.map.linear, axis));
-    const double offset = world_from_local.map.offset[axis];
-    const double moved = row_sum(world_from_local.linear_error, axis) * local_size(solid) +
-                         world_from_local.offset_error[axis] + 4 * unit_roundoff * std::fabs(offset);
-    const double low = e.low + offset, high = e.high + offset;
-    box.low[axis] = low - moved - 8 * unit_roundoff * std::fabs(e.low);
-    box.high[axis] = high + moved + 8 * unit_roundoff * std::fabs(e.high);
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    put(box, axis, extent(solid, row_of(world_from_local.map.linear, axis)), local_size(solid),
+        world_from_local);
   return box;
+}
+
+Box moved(const Box& box, const BoundedAffine& by) {
+  if (box.is_empty()) return box;
+  double size = 0;  // of finite coordinates; an infinite one stays infinite whatever its error
+  for (int i = 0; i < 3; ++i)
+    for (const double x : {box.low[i], box.high[i]})
+      if (std::fabs(x) < infinity) size = greatest(size, std::fabs(x));
+  Box result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3d row = row_of(by.map.linear, axis);
+    Extent e{0, 0};
+    for (int i = 0; i < 3; ++i) {
+      if (row[i] == 0) continue;  // also where the box is endless
+      const double a = row[i] * box.low[i], b = row[i] * box.high[i];
+      e.low += least(a, b), e.high += greatest(a, b);
+    }
+    put(result, axis, e, size, by);
+  }
+  return result;
 }
 
 Crossings crossings(const Leaf& leaf, const LocalRay<double>& ray) {

@@ -41,6 +41,9 @@ Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local);
 /// Never too small; the error of the transform is included.
 Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local);
 
+/// The box around the transformed box; its error is included.
+Box moved(const Box& box, const BoundedAffine& by);
+
 inline LocalRay<double> to_local(const Leaf& leaf, const RayQuery& q) {
   const Vec3d &o = q.ray.origin, &d = q.ray.direction;
   return {{dot(leaf.row[0], o) + leaf.offset.x, dot(leaf.row[1], o) + leaf.offset.y,

@@ -48,9 +48,9 @@ Interval<T> interval_about(const ClosestApproach<T>& c, T disc, T disc_error) {
   // Within its error of zero the line is tangent: an in-and-out pair at the closest approach that covers
   // itself.
   const auto tangent = disc <= disc_error;
-  const T half = select(tangent, T(0), sqrt(greatest(disc, T(0)) * c.inverse_dd));
-  const T half_error =
-      select(tangent, sqrt(T(2) * disc_error * c.inverse_dd), disc_error * c.inverse_dd / half);
+  const T root = sqrt(select(tangent, T(2) * disc_error, disc) * c.inverse_dd);
+  const T half = select(tangent, T(0), root);
+  const T half_error = select(tangent, root, disc_error * c.inverse_dd / root);
   const T error = c.t_error + half_error + T(4 * unit_roundoff) * (fabs(c.t) + half);
   return {bounded(c.t - half, error), bounded(c.t + half, error)};
 }

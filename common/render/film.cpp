@@ -11,8 +11,8 @@ std::size_t float_index(Size film, std::uint32_t x, std::uint32_t y) {
 }
 
 /// Paints the pixels of one pass as squares of their stride, clipped at the tile.
-void paint_squares(const std::vector<float>& pixels, std::vector<float>& picture, Size film, const Tile& tile,
-                   int pass) {
+void paint_squares(const ZeroedVector<float>& pixels, std::vector<float>& picture, Size film,
+                   const Tile& tile, int pass) {
   for_each_pixel(tile, pass, [&](std::uint32_t x0, std::uint32_t y0) {
     const std::uint32_t x1 = std::min(x0 + pass_stride[pass], tile.x1);
     const std::uint32_t y1 = std::min(y0 + pass_stride[pass], tile.y1);
@@ -62,7 +62,7 @@ std::vector<float> Film::pass_pixels(std::uint32_t tile, int pass) const {
 }
 
 std::vector<float> Film::filled() const {
-  std::vector<float> rgb = rgb_;
+  std::vector<float> rgb(rgb_.begin(), rgb_.end());
   for (std::uint32_t tile = 0; tile < done_.size(); ++tile) {
     if (done_[tile] == all_passes) continue;
     // Coarse first: a finer square lies within a coarser one and replaces its part of it.

@@ -6,6 +6,7 @@
 
 #include "common/render/counters.h"
 #include "common/render/tile.h"
+#include "common/render/zeroed_memory.h"
 
 namespace rayfarm {
 
@@ -31,13 +32,13 @@ class Film {
   /// The pixels of one pass again, in travelling order; the pass must be there.
   std::vector<float> pass_pixels(std::uint32_t tile, int pass) const;
   /// Row-major, width * height * 3, linear Rec. 709; y grows downwards. Pixels not there yet are black.
-  const std::vector<float>& rgb() const { return rgb_; }
+  const ZeroedVector<float>& rgb() const { return rgb_; }
   /// As rgb(), but a pixel not there yet shows the nearest coarser one up-left of it in its tile, if any.
   std::vector<float> filled() const;
 
  private:
   Size size_;
-  std::vector<float> rgb_;
+  ZeroedVector<float> rgb_;
   std::vector<PassSet> done_;  // by tile number
   std::uint64_t pixels_done_ = 0;
 };

@@ -50,36 +50,51 @@ class Builder {
       return child;
     }
     const auto first = static_cast<std::uint32_t>(parts_.items.size());
-    const std::uint32_t next = add_item(number, above, first, 0);
+    const std::uint32_t next = add_item(number, above, first, 0).next;
     cut(first);
     parts_.objects.push_back({first, static_cast<std::uint32_t>(parts_.items.size()) - first});
     return next;
   }
 
-  std::uint32_t add_item(std::uint32_t number, const Inherited& above, std::uint32_t object,
-                         std::uint32_t parent) {
+  /// A subtree's box in two frames. A rotated long thing cut short is small in its own frame only, so each
+  /// inner node's box is the overlap of what both frames say.
+  struct Boxes {
+    Box world, parent;
+  };
+
+  struct Added {
+    std::uint32_t next;  // the node after the subtree
+    Boxes boxes;
+  };
+
+  Added add_item(std::uint32_t number, const Inherited& above, std::uint32_t object, std::uint32_t parent) {
     const Inherited inherited = inherited_by(number, above);
+    const BoundedAffine parent_from_node = bounded(node(number).parent_from_node);
     const auto index = static_cast<std::uint32_t>(parts_.items.size());
     parts_.items.emplace_back().parent = parent;
-    std::uint32_t next = number + 1;
+    Added added{number + 1, {}};
     if (const Operation* operation = std::get_if<Operation>(&node(number).content)) {
       parts_.items[index].op = operation->op;
       parts_.items[index].children = operation->children;
-      Box box;
+      Boxes combined;
       for (std::uint32_t i = 0; i < operation->children; ++i) {
         const auto child = static_cast<std::uint32_t>(parts_.items.size());
-        next = add_item(next, inherited, object, index - object);
+        const Added below = add_item(added.next, inherited, object, index - object);
+        added.next = below.next;
         parts_.items[child].weight = operation->op == CsgOp::subtract && i > 0 ? 2 : 1;
-        box = box_after(operation->op, i, box, parts_.items[child].box);
+        combined.world = box_after(operation->op, i, combined.world, below.boxes.world);
+        combined.parent = box_after(operation->op, i, combined.parent, below.boxes.parent);
       }
-      parts_.items[index].box = box;
+      added.boxes = {overlap(combined.world, moved(combined.parent, inherited.world_from_parent)),
+                     moved(combined.parent, parent_from_node)};
     } else {
       const Solid& solid = std::get<Solid>(node(number).content);
       parts_.items[index].leaf = add_leaf(solid, inherited);
-      parts_.items[index].box = bounds_of(solid, inherited.world_from_parent);
+      added.boxes = {bounds_of(solid, inherited.world_from_parent), bounds_of(solid, parent_from_node)};
     }
+    parts_.items[index].box = added.boxes.world;
     parts_.items[index].next = static_cast<std::uint32_t>(parts_.items.size()) - object;
-    return next;
+    return added;
   }
 
   static Box box_after(CsgOp op, std::uint32_t child, const Box& so_far, const Box& box) {
