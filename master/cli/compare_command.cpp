@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/cli/commands.h"
+#include "master/cli/print_json.h"
 #include "master/files/difference.h"
 
 namespace rayfarm {
@@ -21,7 +22,7 @@ ExitCode compare(const CompareArguments& arguments) {
   const Difference result = difference(read_linear(arguments.a), read_linear(arguments.b), metric);
   if (!arguments.output.empty()) write_picture(arguments.output, result.picture);
   if (arguments.json)
-    std::printf("%s\n", nlohmann::json{{"metric", arguments.metric}, {"value", result.value}}.dump().c_str());
+    print_json({{"metric", arguments.metric}, {"value", result.value}});
   else
     std::printf("%s %.9g\n", arguments.metric.c_str(), result.value);
   return ExitCode::done;

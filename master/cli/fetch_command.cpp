@@ -8,6 +8,7 @@
 #include "master/cli/interrupt.h"
 #include "master/cli/job_picture.h"
 #include "master/cli/master_api.h"
+#include "master/cli/print_json.h"
 #include "master/cli/text.h"
 #include "master/cli/whole_number.h"
 
@@ -39,11 +40,8 @@ ExitCode fetch(const FetchArguments& a) {
   write_job_picture(output, job, film, a.srgb ? PngCurve::srgb : PngCurve::gamma22);
   const std::uint64_t total = std::uint64_t{film.size().width} * film.size().height;
   if (a.json)
-    std::printf(
-        "%s\n",
-        json{{"job", a.id}, {"output", output}, {"pixels_done", film.pixels_done()}, {"pixels_total", total}}
-            .dump()
-            .c_str());
+    print_json(
+        {{"job", a.id}, {"output", output}, {"pixels_done", film.pixels_done()}, {"pixels_total", total}});
   else
     std::printf("%s\n", printable(output).c_str());
   if (film.is_complete()) return ExitCode::done;

@@ -8,6 +8,7 @@
 #include "master/cli/interrupt.h"
 #include "master/cli/job_progress.h"
 #include "master/cli/master_api.h"
+#include "master/cli/print_json.h"
 #include "master/cli/text.h"
 #include "master/cli/whole_number.h"
 
@@ -21,11 +22,6 @@ struct JobArguments {
   int priority = 0;
   bool json = false;
 };
-
-void print(const json& value) {
-  std::printf("%s\n", value.dump().c_str());
-  std::fflush(stdout);
-}
 
 std::string text_in(const json& object, const char* name) {
   return printable(object.at(name).get<std::string>());
@@ -41,7 +37,7 @@ std::string progress_of(const json& job) { return percent(job.at("pixels_done"),
 ExitCode list_jobs(const JobArguments& a) {
   const json answer = get_json("/api/v1/jobs");
   if (a.json) {
-    print(answer);
+    print_json(answer);
     return ExitCode::done;
   }
   std::vector<std::vector<std::string>> rows{
@@ -59,7 +55,7 @@ ExitCode list_jobs(const JobArguments& a) {
 ExitCode show_job(const JobArguments& a) {
   const json job = get_json(job_target(a.id));
   if (a.json) {
-    print(job);
+    print_json(job);
     return ExitCode::done;
   }
   const json &settings = job.at("settings"), &counters = job.at("counters");
@@ -93,7 +89,7 @@ ExitCode watch_job(const JobArguments& a) {
   note_interrupts();
   json ended;
   if (a.json) {
-    ended = await_end(a.id, print);
+    ended = await_end(a.id, print_json);
   } else {
     ProgressLine line;
     ended = await_end(a.id, [&](const json& job) { show(line, job); });
@@ -107,53 +103,59 @@ ExitCode watch_job(const JobArguments& a) {
 ExitCode change_job(const JobArguments& a, const std::string& verb, const json& body) {
   const json job = post_json(job_target(a.id) + "/" + verb, body);
   if (a.json)
-    print(job);
+    print_json(job);
   else
     std::printf("job %llu is %s, priority %s\n", static_cast<unsigned long long>(a.id),
                 text_in(job, "state").c_str(), number_in(job, "priority").c_str());
   return ExitCode::done;
 }
 
-/// A command with --json, and with the job's id first unless it is about all of them.
+using Run = std::function<ExitCode(const JobArguments&)>;
+using Arguments = std::shared_ptr<JobArguments>;
+
+/// A command with --json that fills the arguments and runs with them.
 CLI::App* add(CLI::App& app, Command& chosen, const std::string& name, const std::string& help,
-              const std::shared_ptr<JobArguments>& arguments,
-              std::function<ExitCode(const JobArguments&)> run) {
+              const Arguments& arguments, const Run& run) {
   CLI::App* command = app.add_subcommand(name, help);
   command->add_flag("--json", arguments->json, "Answer as JSON");
   command->callback([=, &chosen] { chosen = [=] { return run(*arguments); }; });
   return command;
 }
 
+/// One about a single job.
 CLI::App* add_for_job(CLI::App& app, Command& chosen, const std::string& name, const std::string& help,
-                      std::function<ExitCode(const JobArguments&)> run) {
-  const auto arguments = std::make_shared<JobArguments>();
-  CLI::App* command = add(app, chosen, name, help, arguments, std::move(run));
+                      const Arguments& arguments, const Run& run) {
+  CLI::App* command = add(app, chosen, name, help, arguments, run);
   command->add_option("ID", arguments->id, "The job's number, as submit and jobs show it")
       ->required()
       ->check(whole_number());
-  if (name == "priority")
-    command->add_option("N", arguments->priority, "0 to 99, higher first")
-        ->required()
-        ->check(CLI::Range(0, 99));
   return command;
+}
+
+void add_verb(CLI::App& app, Command& chosen, const std::string& verb, const std::string& help) {
+  add_for_job(app, chosen, verb, help, std::make_shared<JobArguments>(),
+              [verb](const JobArguments& a) { return change_job(a, verb, json::object()); });
 }
 
 }  // namespace
 
 void add_job_commands(CLI::App& app, Command& chosen) {
-  add(app, chosen, "jobs", "List all jobs", std::make_shared<JobArguments>(), list_jobs);
-  add_for_job(app, chosen, "job", "Show all about a job", show_job);
-  add_for_job(app, chosen, "watch", "Show a job's progress until it has ended", watch_job);
-  for (const auto& [verb, help] :
-       {std::pair{"pause", "Stop work on a job until it is resumed"},
-        std::pair{"resume", "Go on with a paused or held job"},
-        std::pair{"cancel", "End a job for good; what is rendered can still be fetched"}})
-    add_for_job(app, chosen, verb, help, [verb = std::string(verb)](const JobArguments& a) {
-      return change_job(a, verb, json::object());
-    });
-  add_for_job(app, chosen, "priority", "Change a job's priority", [](const JobArguments& a) {
-    return change_job(a, "priority", {{"priority", a.priority}});
-  });
+  const auto fresh = [] { return std::make_shared<JobArguments>(); };
+  add(app, chosen, "jobs", "List all jobs", fresh(), list_jobs);
+  add_for_job(app, chosen, "job", "Show all about a job", fresh(), show_job);
+  add_for_job(app, chosen, "watch", "Show a job's progress until it has ended", fresh(), watch_job);
+  add_verb(app, chosen, "pause", "Stop work on a job until it is resumed");
+  add_verb(app, chosen, "resume", "Go on with a paused or held job");
+  add_verb(app, chosen, "cancel", "End a job for good; what is rendered can still be fetched");
+
+  const Arguments arguments = fresh();
+  add_for_job(app, chosen, "priority", "Change a job's priority", arguments,
+              [](const JobArguments& a) {
+                return change_job(a, "priority", {{"priority", a.priority}});
+              })
+      ->add_option("N", arguments->priority, "0 to 99, higher first")
+      ->required()
+      ->check(CLI::Range(0, 99));
 }
 
 }  // namespace rayfarm

@@ -21,12 +21,10 @@ Film fetch_film(const nlohmann::json& job) {
 }
 
 void write_job_picture(const std::string& file, const nlohmann::json& job, const Film& film, PngCurve curve) {
-  Picture picture{film.size(), {}, facts_of(job.at("scene_hash"), settings_from_json(job.at("settings")))};
-  if (film.is_complete()) {
-    picture.rgb = film.rgb();
-  } else {
+  Picture picture{film.size(), film.filled(),
+                  facts_of(job.at("scene_hash"), settings_from_json(job.at("settings")))};
+  if (!film.is_complete()) {
     const std::uint64_t pixels = std::uint64_t{film.size().width} * film.size().height;
-    picture.rgb = film.filled();
     picture.facts["rayfarm:missing_pixels"] = std::to_string(pixels - film.pixels_done());
   }
   write_picture(file, picture, curve);

@@ -11,6 +11,7 @@
 #include "master/cli/local_render.h"
 #include "master/cli/picture_facts.h"
 #include "master/cli/picture_options.h"
+#include "master/cli/print_json.h"
 #include "master/cli/progress_line.h"
 #include "master/cli/text.h"
 #include "master/http/settings_json.h"
@@ -40,7 +41,7 @@ void print_summary(const RenderArguments& a, const PreparedScene& scene, const R
     const nlohmann::json summary{{"output", a.picture.output}, {"scene_hash", scene.hash},
                                  {"settings", to_json(s)},     {"seconds", seconds},
                                  {"samples", samples},         {"counters", to_json(counters)}};
-    std::printf("%s\n", summary.dump().c_str());
+    print_json(summary);
     return;
   }
   std::printf("%s: %ux%u in %.2f s, %s samples, %s rays, bad samples: %llu\n", a.picture.output.c_str(),
@@ -69,7 +70,7 @@ ExitCode render(const RenderArguments& a) {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 
   write_picture(a.picture.output,
-                {rendered->film.size(), rendered->film.rgb(), facts_of(scene.hash, scene.settings)},
+                {rendered->film.size(), rendered->film.filled(), facts_of(scene.hash, scene.settings)},
                 a.picture.curve());
   print_summary(a, scene, rendered->counters, seconds);
   return ExitCode::done;

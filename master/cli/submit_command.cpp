@@ -10,6 +10,7 @@
 #include "master/cli/job_progress.h"
 #include "master/cli/master_api.h"
 #include "master/cli/picture_options.h"
+#include "master/cli/print_json.h"
 #include "master/http/submission.h"
 
 namespace rayfarm {
@@ -25,6 +26,10 @@ struct SubmitArguments {
 };
 
 JobSpec spec_of(const SubmitArguments& a, PreparedScene scene) {
+  if (scene.bytes.size() > largest_scene)
+    throw CommandError(ExitCode::usage, "the scene takes " + std::to_string(scene.bytes.size() >> 20) +
+                                            " MB; at most " + std::to_string(largest_scene >> 20) +
+                                            " can be submitted");
   JobSpec spec;
   spec.name = a.name.empty() ? std::filesystem::path(a.picture.scene_file).stem().string() : a.name;
   spec.output = a.picture.output;
@@ -35,11 +40,6 @@ JobSpec spec_of(const SubmitArguments& a, PreparedScene scene) {
   spec.hold = a.hold;
   spec.key = a.key;
   return spec;
-}
-
-void print(const json& value) {
-  std::printf("%s\n", value.dump().c_str());
-  std::fflush(stdout);
 }
 
 json watched(JobNumber id) {
@@ -53,12 +53,12 @@ ExitCode submit(const SubmitArguments& a) {
   const json submitted = post_json("/api/v1/jobs", to_json(spec_of(a, prepare(a.picture))));
   const JobNumber id = submitted.at("id");
   const bool stays = a.watch || a.wait;
-  if (!a.json) print(id);
-  if (a.json && !stays) print(submitted);
+  if (!a.json) print_json(id);
+  if (a.json && !stays) print_json(submitted);
   if (!stays) return ExitCode::done;
 
   const json ended = a.watch ? watched(id) : await_end(id, [](const json&) {});
-  if (a.json) print(ended);
+  if (a.json) print_json(ended);
   expect_done(ended);
   write_job_picture(a.picture.output, ended, fetch_film(ended), a.picture.curve());
   return ExitCode::done;

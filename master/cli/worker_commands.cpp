@@ -6,6 +6,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/master_api.h"
+#include "master/cli/print_json.h"
 #include "master/cli/text.h"
 #include "master/http/request_target.h"
 
@@ -22,7 +23,7 @@ struct WorkerArguments {
 ExitCode list_workers(const WorkerArguments& a) {
   const json answer = get_json("/api/v1/workers");
   if (a.json) {
-    std::printf("%s\n", answer.dump().c_str());
+    print_json(answer);
     return ExitCode::done;
   }
   std::vector<std::vector<std::string>> rows{
@@ -41,7 +42,7 @@ ExitCode list_workers(const WorkerArguments& a) {
 ExitCode change_worker(const WorkerArguments& a, const std::string& verb) {
   const json answer = post_json("/api/v1/workers/" + percent_encoded(a.name) + "/" + verb, json::object());
   if (a.json)
-    std::printf("%s\n", answer.dump().c_str());
+    print_json(answer);
   else
     std::printf("%s: %s\n", verb.c_str(), a.name.c_str());
   return ExitCode::done;

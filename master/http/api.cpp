@@ -8,6 +8,7 @@
 #include "master/files/image_file.h"
 #include "master/http/assets.h"
 #include "master/http/farm_json.h"
+#include "master/http/film_snapshot.h"
 #include "master/http/request_target.h"
 #include "master/http/settings_json.h"
 #include "master/http/submission.h"
@@ -36,10 +37,6 @@ JobId job_id(const Call& call) {
   if (error != std::errc{} || end != text.data() + text.size())
     throw ApiError(400, "a job's id is a whole number, is " + text);
   return JobId{id};
-}
-
-ApiError no_such_job(JobId id) {
-  return {404, "there is no job " + std::to_string(static_cast<std::uint64_t>(id))};
 }
 
 /// The members of a command's body; an empty body has none.
@@ -89,9 +86,7 @@ ApiResponse change_job(const Call& call, Change change) {
   return shown(call.farm.ask([id = job_id(call), change = std::move(change)](Farm& farm, FarmTime now) {
     const bool changed = change(farm, id, now);
     json job = job_now(farm, id, now);
-    if (!changed)
-      throw ApiError(409, "job " + std::to_string(static_cast<std::uint64_t>(id)) + " has ended (" +
-                              job["state"].get<std::string>() + ")");
+    if (!changed) throw ApiError(409, text_of(id) + " has ended (" + job["state"].get<std::string>() + ")");
     return job;
   }));
 }
@@ -111,26 +106,13 @@ ApiResponse prioritise_job(const Call& call) {
                     [=](Farm& farm, JobId id, FarmTime now) { return farm.set_priority(id, priority, now); });
 }
 
-/// A film that no longer changes: a complete one as it is, a growing one copied on the farm's thread.
-std::shared_ptr<const Film> film_of(const Call& call) {
-  return call.farm.ask([id = job_id(call)](Farm& farm, FarmTime now) {
-    if (!farm.job(id, now)) throw no_such_job(id);
-    std::shared_ptr<const Film> film = farm.film(id);
-    if (!film)
-      throw ApiError(409,
-                     "nothing of job " + std::to_string(static_cast<std::uint64_t>(id)) + " is rendered yet");
-    return film->is_complete() ? film : std::make_shared<const Film>(*film);
-  });
-}
-
 ApiResponse show_film(const Call& call) {
-  const Bytes bytes = encode_film(*film_of(call));
+  const Bytes bytes = encode_film(*film_snapshot(call.farm, job_id(call)));
   return {200, "application/octet-stream", {bytes.begin(), bytes.end()}};
 }
 
 ApiResponse show_picture(const Call& call) {
-  const std::shared_ptr<const Film> film = film_of(call);
-  const std::vector<std::uint8_t> bytes = png_bytes({film->size(), film->filled(), {}});
+  const std::vector<std::uint8_t> bytes = png_bytes(preview(*film_snapshot(call.farm, job_id(call))));
   return {200, "image/png", {bytes.begin(), bytes.end()}};
 }
 

@@ -51,7 +51,9 @@ std::optional<ApiResponse> refusal(const ApiRequest& request, const ListenAddres
     return error_response(403, "this master does not answer to the name \"" + request.host + "\"");
   if (!request.origin.empty() && lower(request.origin) != "http://" + lower(request.host))
     return error_response(403, "pages from " + request.origin + " may not use this master");
-  if (!request.fetch_site.empty() && request.fetch_site != "same-origin" && request.fetch_site != "none")
+  const bool from_here =
+      request.fetch_site.empty() || request.fetch_site == "same-origin" || request.fetch_site == "none";
+  if (!from_here && request.target != "/")  // the bare page may be linked to: it holds nothing yet
     return error_response(403, "pages from elsewhere may not use this master");
   if (request.method == "POST" && !is_json(request.content_type))
     return error_response(415, "POST wants Content-Type: application/json");

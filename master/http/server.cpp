@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -28,7 +29,9 @@ namespace http = beast::http;
 using asio::ip::tcp;
 
 constexpr std::uint32_t header_limit = 8 * 1024;
-constexpr auto write_patience = std::chrono::seconds(600);    // a film of gigabytes over 100 Mbit/s
+constexpr std::uint64_t memory_for_bodies = 4 * submission_limit;  // of all peers together
+constexpr auto write_patience = std::chrono::seconds(600);         // a film of gigabytes over 100 Mbit/s
+constexpr auto farewell_patience = std::chrono::seconds(2);
 constexpr auto news_glance = std::chrono::milliseconds(100);  // the changes of many tiles make one answer
 
 tcp::endpoint endpoint_of(const std::string& listen) {
@@ -95,6 +98,24 @@ Response http_response(ApiResponse answer, const RequestParser::value_type& requ
   return response;
 }
 
+/// Some of the memory that all bodies share, until it is let go.
+class BodyShare {
+ public:
+  BodyShare(std::uint64_t& taken, std::uint64_t bytes) : taken_(taken), bytes_(bytes) { taken_ += bytes_; }
+  ~BodyShare() { taken_ -= bytes_; }
+  BodyShare(const BodyShare&) = delete;
+  BodyShare& operator=(const BodyShare&) = delete;
+
+ private:
+  std::uint64_t& taken_;
+  const std::uint64_t bytes_;
+};
+
+/// How much the peer may still send: what it announced, or the limit when it did not.
+std::uint64_t expected_body(const RequestParser& parser, std::uint64_t limit) {
+  return parser.chunked() ? limit : parser.content_length_remaining().value_or(0);
+}
+
 /// What a request that cannot be read deserves; nothing when the peer is gone or silent.
 std::optional<ApiResponse> complaint(const boost::system::error_code& error) {
   if (error == http::error::header_limit) return error_response(431, "the header is over 8 KB");
@@ -116,6 +137,7 @@ struct HttpServer::Parts {
 
   asio::awaitable<void> accept_all();
   asio::awaitable<void> session(beast::tcp_stream stream);
+  asio::awaitable<void> see_off(beast::tcp_stream& stream);
   asio::awaitable<bool> converse(beast::tcp_stream& stream, beast::flat_buffer& buffer);
   asio::awaitable<bool> reply(beast::tcp_stream& stream, Response response);
   asio::awaitable<ApiResponse> respond(const ApiRequest& request);
@@ -130,6 +152,7 @@ struct HttpServer::Parts {
   tcp::acceptor acceptor;
   asio::thread_pool pool{2};  // pictures are compressed and scenes are checked here
   int connections = 0;
+  std::uint64_t body_bytes = 0;  // that peers may send just now
   std::jthread thread;
 };
 
@@ -155,9 +178,19 @@ asio::awaitable<void> HttpServer::Parts::session(beast::tcp_stream stream) {
     while (co_await converse(stream, buffer)) {}
   } catch (const std::exception&) {  // of the peer's making; nobody is left to be told
   }
-  boost::system::error_code ignored;
-  stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  co_await see_off(stream);
   --connections;
+}
+
+/// Reads and forgets what the peer still sends, for a while: closing at once would reset the connection, and
+/// the answer could be lost on its way.
+asio::awaitable<void> HttpServer::Parts::see_off(beast::tcp_stream& stream) {
+  boost::system::error_code error;
+  stream.socket().shutdown(tcp::socket::shutdown_send, error);
+  std::array<char, 4096> ignored;
+  const asio::mutable_buffer buffer = asio::buffer(ignored);
+  stream.expires_after(farewell_patience);
+  while (!error) co_await stream.async_read_some(buffer, asio::redirect_error(asio::use_awaitable, error));
 }
 
 /// One request and its answer. True if another may follow.
@@ -173,8 +206,11 @@ asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
   std::optional<ApiResponse> refused = error ? complaint(error) : refusal(request, listening);
   if (error && !refused) co_return false;
   const std::uint64_t limit = body_limit(request);
-  if (!refused && parser.content_length_remaining().value_or(0) > limit)
-    refused = complaint(http::error::body_limit);
+  const std::uint64_t expected = refused ? 0 : expected_body(parser, limit);
+  if (!refused && expected > limit) refused = complaint(http::error::body_limit);
+  if (!refused && body_bytes + expected > memory_for_bodies)
+    refused = error_response(503, "too many scenes are being submitted at once; try again");
+  const BodyShare share(body_bytes, refused ? 0 : expected);  // ends with the answer
 
   if (!refused) {
     parser.body_limit(limit);  // for a body in chunks, which does not tell its size

@@ -2,19 +2,16 @@
 #pragma once
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <stdexcept>
 #include <string>
 
 #include "master/farm.h"
+#include "master/http/api_error.h"
 
 namespace rayfarm {
 
-struct ApiError : std::runtime_error {
-  ApiError(unsigned status, const std::string& message) : std::runtime_error(message), status(status) {}
-  unsigned status;
-};
-
-constexpr std::uint64_t submission_limit = 64 * 1024 * 1024;
+constexpr std::uint64_t submission_limit = 64 * 1024 * 1024;  // bytes of JSON
+constexpr std::uint64_t largest_scene =
+    submission_limit / 4 * 3 - 16384;  // as base64, beside the other members
 
 /// Bounded in depth and number of values, so that its tree stays smaller than a small multiple of the text.
 /// Throws ApiError.

@@ -25,6 +25,7 @@ class RawPeer {
   RawPeer& operator=(const RawPeer&) = delete;
 
   bool connected() const { return connected_; }
+  int descriptor() const { return socket_; }
   /// As much as the other side takes.
   void send(std::string_view bytes) {
     while (!bytes.empty()) {

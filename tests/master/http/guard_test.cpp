@@ -43,8 +43,11 @@ TEST(Guard, AnOriginMustBeTheMasterItself) {
   }
 }
 
-TEST(Guard, PicturesAreNotForPagesFromElsewhere) {
+TEST(Guard, PicturesAreNotForPagesFromElsewhereButTheyMayLinkToThePage) {
   ApiRequest request = get("localhost:5412");
+  request.fetch_site = "cross-site";
+  EXPECT_EQ(status_of(request), 200u);
+  request.target = "/api/v1/jobs/1/picture.png";
   request.fetch_site = "cross-site";
   EXPECT_EQ(status_of(request), 403u);
   request.fetch_site = "same-site";

@@ -1,6 +1,7 @@
 #include "master/http/server.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include <list>
 #include <nlohmann/json.hpp>
@@ -115,6 +116,34 @@ TEST_F(Server, RefusesABodyThatIsAnnouncedTooLargeBeforeItComes) {
        {"POST /api/v1/jobs HTTP/1.1\r\n" + host + type + "Content-Length: 99999999999\r\n\r\n",
         "POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host + type + "Content-Length: 100000\r\n\r\n"})
     EXPECT_EQ(status_line(request), "HTTP/1.1 413 Payload Too Large");
+}
+
+// The answer must arrive although the peer is still talking: a connection closed at once would be reset.
+TEST_F(Server, SaysThatABodyIsTooLargeAlsoWhenItComesAnyway) {
+  const std::string body(1'000'000, ' ');
+  EXPECT_EQ(status_line("POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host +
+                        "Content-Type: application/json\r\nContent-Length: 1000000\r\n\r\n" + body),
+            "HTTP/1.1 413 Payload Too Large");
+}
+
+// Room is for four of the largest; the others wait for their bodies, so only the refused one is answered.
+TEST(HttpServer, LargeBodiesShareABoundedMemory) {
+  FarmThread farm;
+  const HttpServer server({.listen = "127.0.0.1:0"}, door_to(farm));
+  const auto port = static_cast<std::uint16_t>(std::stoi(server.url().substr(server.url().rfind(':') + 1)));
+  std::list<RawPeer> peers;
+  std::vector<pollfd> sockets;
+  for (int i = 0; i < 5; ++i) {
+    peers.emplace_back(port).send("POST /api/v1/jobs HTTP/1.1\r\n" + host +
+                                  "Content-Type: application/json\r\nContent-Length: 67108864\r\n\r\n");
+    sockets.push_back({peers.back().descriptor(), POLLIN, 0});
+  }
+  ASSERT_EQ(::poll(sockets.data(), sockets.size(), -1), 1);
+  auto socket = sockets.begin();
+  for (RawPeer& peer : peers)
+    if ((socket++)->revents != 0) {
+      EXPECT_TRUE(peer.some().starts_with("HTTP/1.1 503"));
+    }
 }
 
 TEST_F(Server, RefusesABodyInChunksOnceItIsTooLarge) {

@@ -1,0 +1,18 @@
+// What a request gets instead of what it asked for.
+#pragma once
+#include <stdexcept>
+#include <string>
+
+#include "common/net/messages.h"
+
+namespace rayfarm {
+
+struct ApiError : std::runtime_error {
+  ApiError(unsigned status, const std::string& message) : std::runtime_error(message), status(status) {}
+  unsigned status;  // of HTTP
+};
+
+inline std::string text_of(JobId id) { return "job " + std::to_string(static_cast<std::uint64_t>(id)); }
+inline ApiError no_such_job(JobId id) { return {404, "there is no " + text_of(id)}; }
+
+}  // namespace rayfarm

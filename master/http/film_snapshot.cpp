@@ -1,0 +1,73 @@
+#include "master/http/film_snapshot.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "master/http/api_error.h"
+
+namespace rayfarm {
+namespace {
+
+constexpr std::uint32_t tiles_at_once = 256;  // 12 MB: some milliseconds
+
+std::shared_ptr<const Film> film_now(Farm& farm, JobId id, FarmTime now) {
+  const std::optional<JobView> job = farm.job(id, now);
+  if (!job) throw no_such_job(id);
+  std::shared_ptr<const Film> film = farm.film(id);
+  if (!film && job->pixels_done > 0)
+    throw ApiError(410, "the picture of " + text_of(id) + " is no longer kept; submit it again");
+  if (!film) throw ApiError(409, "nothing of " + text_of(id) + " is rendered yet");
+  return film;
+}
+
+using TilePasses = std::vector<std::pair<std::uint32_t, PassImage>>;
+
+TilePasses passes_there(const Film& film, std::uint32_t begin, std::uint32_t end) {
+  TilePasses all;
+  for (std::uint32_t tile = begin; tile < end; ++tile)
+    for (int pass = 0; pass < pass_count; ++pass)
+      if (film.passes_of(tile) >> pass & 1) all.push_back({tile, {pass, film.pass_pixels(tile, pass), {}}});
+  return all;
+}
+
+}  // namespace
+
+std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id) {
+  struct First {
+    Size size;
+    std::shared_ptr<const Film> complete;
+  };
+  const First first = farm.ask([id](Farm& f, FarmTime now) {
+    const std::shared_ptr<const Film> film = film_now(f, id, now);
+    return First{film->size(), film->is_complete() ? film : nullptr};
+  });
+  if (first.complete) return first.complete;
+
+  const auto copy = std::make_shared<Film>(first.size);
+  const std::uint32_t tiles = tile_count(first.size);
+  for (std::uint32_t begin = 0; begin < tiles; begin += tiles_at_once) {
+    const std::uint32_t end = std::min(begin + tiles_at_once, tiles);
+    const TilePasses passes =
+        farm.ask([=](Farm& f, FarmTime now) { return passes_there(*film_now(f, id, now), begin, end); });
+    for (const auto& [tile, image] : passes) copy->put(tile, image);
+  }
+  return copy;
+}
+
+Picture preview(const Film& film) {
+  const Size whole = film.size();
+  const std::uint32_t step =
+      (std::max(whole.width, whole.height) + longest_preview_side - 1) / longest_preview_side;
+  if (step <= 1) return {whole, film.filled(), {}};
+  const std::vector<float> filled = film.filled();
+  Picture picture{{(whole.width + step - 1) / step, (whole.height + step - 1) / step}, {}, {}};
+  for (std::uint32_t y = 0; y < whole.height; y += step)
+    for (std::uint32_t x = 0; x < whole.width; x += step) {
+      const auto pixel = filled.begin() + 3 * (std::ptrdiff_t{y} * whole.width + x);
+      picture.rgb.insert(picture.rgb.end(), pixel, pixel + 3);
+    }
+  return picture;
+}
+
+}  // namespace rayfarm

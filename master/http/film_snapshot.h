@@ -1,0 +1,20 @@
+// A job's film, taken from the farm without holding its thread up.
+#pragma once
+#include <memory>
+
+#include "master/files/image_file.h"
+#include "master/http/farm_door.h"
+
+namespace rayfarm {
+
+/// A film that no longer changes: a complete one is shared, a growing one copied a few milliseconds of the
+/// farm's thread at a time, so that workers are not kept waiting by a look at a huge picture. Each tile is as
+/// it was at some moment of the copying. Throws ApiError when there is none.
+std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id);
+
+constexpr std::uint32_t longest_preview_side = 4096;  // pixels
+
+/// What is there, coarse pixels filling the places of those to come; of a larger picture each n-th pixel.
+Picture preview(const Film& film);
+
+}  // namespace rayfarm

@@ -1,0 +1,80 @@
+#include "master/http/film_snapshot.h"
+
+#include <gtest/gtest.h>
+
+#include "master/http/api_error.h"
+#include "tests/support/farm_thread.h"
+#include "tests/support/test_submission.h"
+
+namespace rayfarm {
+namespace {
+
+class FilmSnapshot : public testing::Test {
+ protected:
+  JobId submit(std::uint32_t width, std::uint32_t height) {
+    JobId id{};
+    farm.run([&](Farm& f, FarmTime now) {
+      JobSpec spec = small_job();
+      spec.settings.width = width, spec.settings.height = height, spec.settings.spp = 1;
+      id = f.submit(spec, now);
+    });
+    return id;
+  }
+  /// Once the farm's thread has nothing left to do.
+  std::shared_ptr<const Film> film(JobId id) {
+    std::shared_ptr<const Film> film;
+    std::uint64_t pixels = 0, before = 1;
+    for (; pixels != before; before = pixels, pixels = film ? film->pixels_done() : 0)
+      farm.run([&](Farm& f, FarmTime) { film = f.film(id); });
+    return film;
+  }
+
+  FarmThread farm;
+  FarmDoor door{[this](FarmThread::Task task) { farm.post(std::move(task)); }};
+};
+
+// 18 x 16 tiles: more than are copied at once.
+TEST_F(FilmSnapshot, OfAGrowingFilmIsWhatIsThereAndStaysSo) {
+  const JobId id = submit(1150, 1010);
+  farm.add_renderer("pc1", 270);
+  farm.add_renderer("pc2", 3);
+  while (film(id)->pixels_done() < 270 * 50) std::this_thread::yield();
+  std::shared_ptr<const Film> snapshot;
+  do snapshot = film_snapshot(door, id);
+  while (snapshot->pixels_done() != film(id)->pixels_done());
+  EXPECT_FALSE(snapshot->is_complete());
+  EXPECT_NE(snapshot, film(id));
+  EXPECT_EQ(snapshot->filled(), film(id)->filled());
+}
+
+TEST_F(FilmSnapshot, OfACompleteFilmIsTheFilmItself) {
+  const JobId id = submit(96, 80);
+  farm.add_renderer("pc1");
+  while (!film(id)->is_complete()) std::this_thread::yield();
+  EXPECT_EQ(film_snapshot(door, id), film(id));
+}
+
+TEST_F(FilmSnapshot, WithoutAFilmIsAnError) {
+  EXPECT_THROW(film_snapshot(door, JobId{7}), ApiError);
+  EXPECT_THROW(film_snapshot(door, submit(96, 80)), ApiError);
+}
+
+TEST(Preview, OfALargePictureIsEachNthPixel) {
+  Film film({5000, 3});
+  for (std::uint32_t tile = 0; tile < tile_count(film.size()); ++tile)
+    for (int pass = 0; pass < pass_count; ++pass) {
+      PassImage image{pass, {}, {}};
+      for_each_pixel(tile_at(film.size(), tile), pass, [&](std::uint32_t x, std::uint32_t y) {
+        image.rgb.insert(image.rgb.end(), {static_cast<float>(x), static_cast<float>(y), 0});
+      });
+      film.put(tile, image);
+    }
+  const Picture picture = preview(film);
+  EXPECT_EQ(picture.size, (Size{2500, 2}));
+  ASSERT_EQ(picture.rgb.size(), std::size_t{2500} * 2 * 3);
+  EXPECT_EQ(picture.rgb[(2500 + 1234) * 3], 2468);
+  EXPECT_EQ(picture.rgb[(2500 + 1234) * 3 + 1], 2);
+}
+
+}  // namespace
+}  // namespace rayfarm
