@@ -21,8 +21,7 @@ double polynomial(double x, const std::array<double, N>& c) {
   return sum;
 }
 
-// Circular functions.
-// ------------------------------------------------------------------------------------------
+// Circular functions. ---------------------------------------------------------------------------------------
 
 /// An angle as quadrant * pi / 2 + rest, |rest| <= pi / 4 (and a little).
 struct Reduced {
@@ -77,8 +76,7 @@ Reduced quarter_turn_on(Reduced a) {
   return a;
 }
 
-// Their inverses.
-// ----------------------------------------------------------------------------------------------
+// Their inverses. -------------------------------------------------------------------------------------------
 
 /// atan(y / x) for 0 <= y <= x, x > 0.
 DoubleDouble angle_below_diagonal(DoubleDouble y, DoubleDouble x) {
@@ -110,8 +108,7 @@ DoubleDouble other_leg(double x) {
   return fast_two_sum(root, (std::fma(-root, root, square.hi) + square.lo) / (2 * root));
 }
 
-// Exponential and logarithm.
-// -----------------------------------------------------------------------------------
+// Exponential and logarithm. --------------------------------------------------------------------------------
 
 /// exp(hi + lo); overflow and underflow as C's exp.
 double exp_of(const DoubleDouble& x) {

@@ -37,8 +37,7 @@ void check_positive(double x, const std::string& place, std::string_view what) {
   if (!(std::isfinite(x) && x > 0)) fail(place, std::string(what) + " must be positive, is " + text(x));
 }
 
-// The tree.
-// ----------------------------------------------------------------------------------------------------
+// The tree. -------------------------------------------------------------------------------------------------
 
 std::string_view name_of(CsgOp op) {
   switch (op) {
@@ -155,8 +154,7 @@ void check_tree(const Scene& scene) {
       throw SceneError("scene: the tree does not close, the last operation lacks children");
 }
 
-// Materials, camera, lights.
-// -----------------------------------------------------------------------------------
+// Materials, camera, lights. --------------------------------------------------------------------------------
 
 void check_material(const Material& m, const std::string& place) {
   check_weight(m.color, place, "color");

@@ -27,8 +27,7 @@ int call_original(lua_State* L) {
   return lua_error(L);
 }
 
-// math: the same bits on every CPU.
-// ----------------------------------------------------------------------------
+// math: the same bits on every CPU. -------------------------------------------------------------------------
 
 template <double (*f)(double)>
 int unary(lua_State* L) {
@@ -79,8 +78,7 @@ void open_math(lua_State* L) {
   lua_pop(L, 1);
 }
 
-// Text: no addresses, which differ from run to run.
-// ------------------------------------------------------------
+// Text: no addresses, which differ from run to run. ---------------------------------------------------------
 
 /// tostring; a value without a text of its own is its type's name.
 int to_string(lua_State* L) {
@@ -99,9 +97,11 @@ int to_string(lua_State* L) {
 
 int format(lua_State* L) {
   const std::string_view form = luaL_checkstring(L, 1);
-  for (std::size_t i = 0; i + 1 < form.size(); ++i)
-    if (form[i] == '%' && form[++i] == 'p')
+  for (std::size_t i = form.find('%'); i < form.size(); i = form.find('%', i + 1)) {
+    i = std::min(form.find_first_not_of("-+ #0123456789.", i + 1), form.size());
+    if (i < form.size() && form[i] == 'p')
       return luaL_error(L, "format: %%p is not available in a scene script");
+  }
   for (int i = 2, n = lua_gettop(L); i <= n; ++i) {
     if (lua_type(L, i) < LUA_TTABLE) continue;
     lua_pushcfunction(L, to_string);
@@ -162,8 +162,7 @@ void remove_unsafe(lua_State* L) {
   }
 }
 
-// Globals.
-// -----------------------------------------------------------------------------------------------------
+// Globals. --------------------------------------------------------------------------------------------------
 
 int unknown_global(lua_State* L) {
   const std::string name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : description(L, 2);

@@ -21,8 +21,7 @@ void check_count(lua_State* L, int wanted, const std::string& method, const char
     throw SceneError(method + ": takes " + form + ", got " + std::to_string(lua_gettop(L) - 1) + " values");
 }
 
-// Transforms.
-// --------------------------------------------------------------------------------------------------
+// Transforms. -----------------------------------------------------------------------------------------------
 
 int push_transformed(lua_State* L, const Affine& by) {
   NodeValue& copy = push_copy(L, 1);
@@ -100,8 +99,7 @@ int matrix(lua_State* L) {
   return push_transformed(L, m);
 }
 
-// Attributes: a second call replaces what the first one set.
-// ---------------------------------------------------
+// Attributes: a second call replaces what the first one set. ------------------------------------------------
 
 /// Pushes a copy of the node with the value at the index as its companion.
 NodeValue& push_with(lua_State* L, Companion companion, int index) {

@@ -49,8 +49,7 @@ int make_torus(lua_State* L) {
   return push_solid(L, torus);
 }
 
-// Set operations.
-// ----------------------------------------------------------------------------------------------
+// Set operations. -------------------------------------------------------------------------------------------
 
 /// The table at 1 must be a plain list of nodes; answers its length.
 std::uint32_t list_length(lua_State* L, const std::string& function) {
@@ -100,8 +99,7 @@ int make_intersection(lua_State* L) { return make_operation<CsgOp::intersect>(L,
 int make_difference(lua_State* L) { return make_operation<CsgOp::subtract>(L, "difference"); }
 int make_xor(lua_State* L) { return make_operation<CsgOp::exclusive_or>(L, "xor"); }
 
-// The tree of a scene.
-// -----------------------------------------------------------------------------------------
+// The tree of a scene. --------------------------------------------------------------------------------------
 
 /// Turns node values into a scene's preorder. A material used by many nodes is one in the scene.
 class TreeWriter {

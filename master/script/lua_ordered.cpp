@@ -10,8 +10,7 @@
 namespace rayfarm {
 namespace {
 
-// Keys: numbers ascending, then strings by their bytes, then false and true.
-// ----------------------------------
+// Keys: numbers ascending, then strings by their bytes, then false and true. --------------------------------
 
 int rank(int type) { return type == LUA_TNUMBER ? 0 : type == LUA_TSTRING ? 1 : 2; }
 

@@ -29,8 +29,7 @@ std::optional<T> parsed(const std::string& text) {
   return x;
 }
 
-// Declaration.
-// -------------------------------------------------------------------------------------------------
+// Declaration. ----------------------------------------------------------------------------------------------
 
 std::vector<std::string> read_choices(lua_State* L, const Fields& fields) {
   std::vector<std::string> choices;
@@ -63,8 +62,7 @@ bool fits(lua_State* L, int index, const std::string& type) {
   return lua_type(L, index) == LUA_TSTRING;
 }
 
-// Value.
-// -------------------------------------------------------------------------------------------------------
+// Value. ----------------------------------------------------------------------------------------------------
 
 /// Pushes the user's text as a value of the parameter's type.
 void push_parsed(lua_State* L, const ScriptParameter& p, const std::string& text) {

@@ -18,8 +18,7 @@ const Signature scene_signature{"scene", {"camera", "background", "lights", "roo
 const Signature image_signature{"image", {"width", "height", "spp"}};
 const Signature animation_signature{"animation", {"start", "stop", "fps"}};
 
-// Surfaces.
-// ----------------------------------------------------------------------------------------------------
+// Surfaces. -------------------------------------------------------------------------------------------------
 
 int make_phong(lua_State* L) {
   const Fields fields(L, 1, phong_signature);
@@ -46,8 +45,7 @@ int make_checker(lua_State* L) {
   return 1;
 }
 
-// Camera and lights.
-// -------------------------------------------------------------------------------------------
+// Camera and lights. ----------------------------------------------------------------------------------------
 
 int make_perspective(lua_State* L) {
   const Fields fields(L, 1, perspective_signature);
@@ -93,8 +91,7 @@ int make_rectangle(lua_State* L) {
   return 1;
 }
 
-// The whole.
-// ---------------------------------------------------------------------------------------------------
+// The whole. ------------------------------------------------------------------------------------------------
 
 std::vector<Light> read_lights(lua_State* L, const Fields& fields) {
   std::vector<Light> lights;

@@ -85,8 +85,7 @@ glm::dvec3 color_at(lua_State* L, int index, const std::string& what) {
   return triple_at(L, index, what, "{r, g, b} or a number", Range::not_negative);
 }
 
-// Fields.
-// ------------------------------------------------------------------------------------------------------
+// Fields. ---------------------------------------------------------------------------------------------------
 
 Fields::Fields(lua_State* L, int index, const Signature& signature)
     : L_(L), index_(lua_absindex(L, index)), signature_(signature) {

@@ -84,8 +84,7 @@ class Fields {
   const Signature& signature_;
 };
 
-// Values of our own, as userdata without finalizers.
-// -----------------------------------------------------------
+// Values of our own, as userdata without finalizers. --------------------------------------------------------
 
 template <class T>
 struct LuaName;

@@ -134,8 +134,7 @@ TEST(Language, TimeIsThatOfTheFrame) {
             0);
 }
 
-// Parameters.
-// --------------------------------------------------------------------------------------------------
+// Parameters. -----------------------------------------------------------------------------------------------
 
 const char* const declaration = R"(
   local depth = param{ "depth", type = "int", default = 5, min = 1, max = 9, help = "recursion depth" }

@@ -85,7 +85,10 @@ TEST(Library, NoAddressIsSeen) {
   EXPECT_EQ(text("tostring({}) .. tostring(print) .. tostring(sphere{}) .. tostring(1.5)"),
             "tablefunctionnode1.5");
   EXPECT_EQ(text("string.format('%s %d %s', {}, 3, print)"), "table 3 function");
-  EXPECT_NE(complaint("string.format('%p', {})").find("%p is not available"), std::string::npos);
+  for (const char* form : {"%p", "%%%p", "%d %-20p"})
+    EXPECT_NE(complaint("string.format('" + std::string(form) + "', 1, 'x')").find("%p is not available"),
+              std::string::npos);
+  EXPECT_EQ(text("string.format('%%p %5.1f%%', 2)"), "%p   2.0%");
   EXPECT_EQ(complaint("\nstring.format('%d', 'x')"),
             "test.lua:2: bad argument #2 to '?' (number expected, got string)");
   EXPECT_EQ(text("tostring(setmetatable({}, { __tostring = function() return 'mine' end }))"), "mine");

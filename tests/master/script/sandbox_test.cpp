@@ -139,8 +139,7 @@ TEST(Sandbox, AScriptThatCannotBeReadIsNamed) {
   EXPECT_THROW(evaluate_file("/", {}, 0), SceneError);
 }
 
-// The helper, whatever it does.
-// --------------------------------------------------------------------------------
+// The helper, whatever it does. -----------------------------------------------------------------------------
 
 HelperEnd shell(const std::string& commands) { return run_helper({"/bin/sh", commands, 10s, 100'000, {}}); }
 
@@ -157,7 +156,6 @@ TEST(Spawn, HowAHelperEndedIsTold) {
   EXPECT_EQ(shell("echo abc").output, "abc\n");
   EXPECT_EQ(shell("exit 3").code, 3);
   EXPECT_EQ(shell("kill -9 $$").kind, HelperEnd::Kind::signalled);
-            HelperEnd::Kind::signalled);  // it will say no more: killed
   EXPECT_THROW(run_helper({"/nowhere/helper", "", 10s, 1000, {}}), std::system_error);
 }
 

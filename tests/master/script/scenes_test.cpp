@@ -39,8 +39,7 @@ Leaf leaf_of(const Inherited& above, std::string kind, std::vector<double> numbe
           above.textures};
 }
 
-// From our Scene.
-// ----------------------------------------------------------------------------------------------
+// From our Scene. -------------------------------------------------------------------------------------------
 
 const char* const operation_names[] = {"union", "intersection", "difference", "xor"};
 
@@ -74,8 +73,7 @@ std::vector<Leaf> leaves_of(const Scene& scene) {
   return leaves;
 }
 
-// From the facts.
-// ----------------------------------------------------------------------------------------------
+// From the facts. -------------------------------------------------------------------------------------------
 
 glm::dvec3 vector_from(const json& v) {
   return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
@@ -128,8 +126,7 @@ json facts(const std::string& name) {
   return json::parse(in);
 }
 
-// Comparison.
-// --------------------------------------------------------------------------------------------------
+// Comparison. -----------------------------------------------------------------------------------------------
 
 constexpr double tolerance = 1e-6;  // the original's angles are single precision
 
