@@ -134,6 +134,7 @@ asio::awaitable<std::string> Sessions::try_target(DialTarget target) {
 
 /// Why the peer was not admitted; empty after the conversation with one that was.
 asio::awaitable<std::string> Sessions::serve(tcp::socket socket, std::string name) {
+  if (stopping_) co_return "the master stops";
   Session session{{std::move(socket), times_.connection}, std::move(name), {}, {}};
   sessions_.insert(&session);
   std::string reason;

@@ -1,0 +1,149 @@
+// The farm with real workers over real sockets, and threads of its own: whatever happens, the film is the one
+// that a renderer makes alone.
+#include <gtest/gtest.h>
+
+#include "master/local_threads.h"
+#include "tests/support/farm_jobs.h"
+#include "tests/support/master_thread.h"
+#include "tests/support/worker_thread.h"
+
+namespace rayfarm {
+namespace {
+
+constexpr RenderSettings settings{.width = 500, .height = 300, .spp = 1};
+
+struct RunningJob {
+  MasterThread& master;
+  JobId id;
+
+  explicit RunningJob(MasterThread& m, RenderSettings s = settings)
+      : master(m), id(m.ask([&](Farm& farm, FarmTime now) { return farm.submit(simple_job(s), now); })) {}
+
+  JobView view() {
+    return *master.ask([&](Farm& farm, FarmTime now) { return farm.job(id, now); });
+  }
+  Film finished_film() {
+    master.wait_until([&](Farm& farm) { return farm.job(id, {})->state == JobState::done; });
+    return *master.ask([&](Farm& farm, FarmTime) { return farm.film(id); });
+  }
+};
+
+TEST(FarmAtWork, MakesTheFilmWithOneTwoAndThreeWorkers) {
+  const Film expected = rendered(position_tile, settings);
+  for (int count = 1; count <= 3; ++count) {
+    MasterThread master;
+    std::deque<WorkerThread> workers;
+    for (int i = 0; i < count; ++i)
+      workers.emplace_back(worker_for(master.address(), "lab" + std::to_string(i)), prepare_positions);
+    EXPECT_EQ(RunningJob(master).finished_film().rgb(), expected.rgb());
+  }
+}
+
+TEST(FarmAtWork, MakesTheFilmWithItsOwnThreads) {
+  MasterThread master;
+  auto local = master.make<LocalThreads>(2u, PrepareScene(prepare_positions));
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+  master.end(local);
+}
+
+TEST(FarmAtWork, TracesTheSamePictureAsOneThread) {
+  const RenderSettings small{.width = 100, .height = 80, .spp = 4};
+  MasterThread master;
+  auto local = master.make<LocalThreads>(1u, PrepareScene(prepare_scene));
+  WorkerThread worker(worker_for(master.address(), "lab7"), prepare_scene);
+  EXPECT_EQ(RunningJob(master, small).finished_film().rgb(),
+            rendered(prepare_scene(simple_scene()), small).rgb());
+  master.end(local);
+}
+
+TEST(FarmAtWork, MakesTheFilmAlthoughAWorkerIsKilledInTheMiddleOfATile) {
+  MasterThread master;
+  Gate gate;
+  {
+    WorkerThread doomed(worker_for(master.address(), "doomed"), gate.prepare());
+    RunningJob job(master);
+    gate.wait_for_begun(1);
+    EXPECT_EQ(job.view().pixels_done, 0u);
+  }
+  WorkerThread next(worker_for(master.address(), "next"), prepare_positions);
+  RunningJob second(master);
+  EXPECT_EQ(second.finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(master.ask([](Farm& farm, FarmTime now) { return farm.jobs(now); })[0].state, JobState::done);
+}
+
+TEST(FarmAtWork, StopsAWorkerInTheMiddleOfATileWhenTheJobIsCancelled) {
+  MasterThread master;
+  Gate gate;
+  WorkerThread worker(worker_for(master.address(), "lab7"), gate.prepare());
+  RunningJob slow(master);
+  gate.wait_for_begun(1);
+  EXPECT_TRUE(master.ask([&](Farm& farm, FarmTime now) { return farm.cancel(slow.id, now); }));
+  gate.wait_for_stopped(1);
+  gate.open();
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+}
+
+TEST(FarmAtWork, StopsItsOwnThreadsInTheMiddleOfATileWhenTheJobIsPaused) {
+  MasterThread master;
+  Gate gate;
+  auto local = master.make<LocalThreads>(2u, gate.prepare());
+  RunningJob job(master);
+  gate.wait_for_begun(2);
+  EXPECT_TRUE(master.ask([&](Farm& farm, FarmTime now) { return farm.pause(job.id, now); }));
+  gate.wait_for_stopped(2);
+  gate.open();
+  EXPECT_TRUE(master.ask([&](Farm& farm, FarmTime now) { return farm.resume(job.id, now); }));
+  EXPECT_EQ(job.finished_film().rgb(), rendered(position_tile, settings).rgb());
+  master.end(local);
+}
+
+TEST(FarmAtWork, LosesNothingWhenAWorkerStopsCleanly) {
+  MasterThread master;
+  Gate gate;
+  WorkerThread leaving(worker_for(master.address(), "leaving"), gate.prepare());
+  RunningJob job(master);
+  gate.wait_for_begun(1);
+  leaving.stop();
+  gate.open();
+  leaving.wait_for_end();
+  EXPECT_GT(job.view().pixels_done, 0u);  // what was begun was delivered
+  WorkerThread next(worker_for(master.address(), "next"), prepare_positions);
+  EXPECT_EQ(job.finished_film().rgb(), rendered(position_tile, settings).rgb());
+}
+
+TEST(FarmAtWork, FailsAJobThatNoWorkerCanRenderAndSaysWhy) {
+  MasterThread master;
+  WorkerThread worker(worker_for(master.address(), "lab7"),
+                      [](Scene) -> TileRenderer { throw SceneError("too large for this PC"); });
+  RunningJob job(master);
+  master.wait_until([&](Farm& farm) { return farm.job(job.id, {})->state == JobState::failed; });
+  EXPECT_NE(job.view().message.find("too large for this PC"), std::string::npos);
+}
+
+TEST(FarmAtWork, DialsWorkersThatListenAndNamesThem) {
+  WorkerOptions options = patient_worker("its own name");
+  options.way = AwaitMaster{{"127.0.0.1", 0}};
+  WorkerThread worker(options, prepare_positions);
+  MasterThread master;
+  master.dial({"nowhere", {"no.such.host.invalid", 5411}});
+  master.dial({"lab7", worker.listening_at()});
+  master.wait_for_workers(1);
+  EXPECT_EQ(master.ask([](Farm& farm, FarmTime) { return farm.workers(); })[0].info.name, "lab7");
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+}
+
+TEST(FarmAtWork, GoesOnWhenTheMasterComesBackAtTheSameAddress) {
+  auto master = std::make_unique<MasterThread>();
+  const Address address = master->address();
+  WorkerThread worker(worker_for(address, "lab7"), prepare_positions);
+  master->wait_for_workers(1);
+  master->stop();
+  master->wait_for_end();
+  master.reset();
+  MasterThread next(patient_door(), address);
+  next.wait_for_workers(1);
+  EXPECT_EQ(RunningJob(next).finished_film().rgb(), rendered(position_tile, settings).rgb());
+}
+
+}  // namespace
+}  // namespace rayfarm

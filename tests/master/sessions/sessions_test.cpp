@@ -1,0 +1,166 @@
+// The door alone: what it makes of peers that the test speaks for.
+#include "master/sessions.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/farm_jobs.h"
+#include "tests/support/framed_socket.h"
+#include "tests/support/master_thread.h"
+
+namespace rayfarm {
+namespace {
+
+using namespace std::chrono_literals;
+
+Hello hello_from(std::string name) { return {protocol_version, "0.1.0", std::move(name), "a test's CPU", 1}; }
+
+/// Connected, not a word said.
+struct Peer : WorkerByHand {
+  explicit Peer(const MasterThread& master) { connect(master.address()); }
+};
+/// Welcomed under the name that it asked for.
+struct Guest : Peer {
+  Guest(const MasterThread& master, std::string name) : Peer(master) {
+    send(hello_from(name));
+    EXPECT_EQ(receive_a<Welcome>().name, name);
+  }
+  /// The next assignment, whatever is said before.
+  Assignment next_assignment() {
+    for (;;)
+      if (const ToWorker message = receive(); const auto* assignment = std::get_if<Assignment>(&message))
+        return *assignment;
+  }
+};
+
+JobId submit(MasterThread& master, RenderSettings settings) {
+  return master.ask([&](Farm& farm, FarmTime now) { return farm.submit(simple_job(settings), now); });
+}
+
+constexpr RenderSettings one_tile{.width = 64, .height = 64};
+
+TEST(Sessions, TakeAWorkerInAndGiveItWork) {
+  MasterThread master;
+  Guest guest(master, "lab7");
+  const JobId job = submit(master, one_tile);
+  EXPECT_EQ(guest.receive_a<SceneData>().hash, scene_data(simple_scene()).hash);
+  EXPECT_EQ(guest.receive_a<JobStart>().job, job);
+  const auto assignment = guest.receive_a<Assignment>();
+  EXPECT_EQ(assignment.passes, all_passes);
+  guest.send(
+      Result{assignment.lease, job, 0, *position_tile(one_tile, 0, all_passes, [] { return false; }), 0.1});
+  EXPECT_EQ(guest.receive_a<JobEnd>().job, job);
+  const Film film = *master.ask([&](Farm& farm, FarmTime) { return farm.film(job); });
+  EXPECT_EQ(film.rgb(), rendered(position_tile, one_tile).rgb());
+}
+
+TEST(Sessions, RefuseAnotherProtocolAndSayWhatToDo) {
+  MasterThread master;
+  Peer peer(master);
+  Hello hello = hello_from("lab7");
+  hello.protocol = 2;
+  peer.send(hello);
+  EXPECT_EQ(peer.receive_a<Refused>().reason,
+            "rayfarm 0.1.0 speaks protocol 2, this master (0.1.0) protocol 1: install the same version on "
+            "both PCs");
+  peer.wait_for_end();
+}
+
+TEST(Sessions, RefuseAPeerThatDoesNotSayHello) {
+  MasterThread master;
+  const std::vector<std::pair<Bytes, std::string>> cases = {
+      {encode(ToMaster{GiveBack{}}), "the first message must be Hello"},
+      {Bytes{'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '/', '1', '.', '1', '\r', '\n', '\r', '\n'},
+       "the peer does not speak rayfarm's protocol"},
+      {encode(ToMaster{hello_from("")}), "a worker needs a name: give it one with --name"},
+      {encode(ToMaster{Hello{1, "0.1.0", "lab7", "", 0}}), "a worker has 1 to 4096 threads, not 0"},
+  };
+  for (const auto& [bytes, reason] : cases) {
+    Peer peer(master);
+    peer.send_bytes(bytes);
+    EXPECT_EQ(peer.receive_a<Refused>().reason, reason);
+    peer.wait_for_end();
+  }
+  EXPECT_TRUE(master.ask([](Farm& farm, FarmTime) { return farm.workers(); }).empty());
+}
+
+TEST(Sessions, EndWithAPeerThatOnlyBeats) {
+  MasterThread master(DoorTimes{{10ms, 60s, 30ms}, {}});
+  Peer peer(master);
+  peer.send(Heartbeat{});
+  peer.wait_for_end();
+}
+
+TEST(Sessions, GiveATileToTheNextWhenASocketDies) {
+  MasterThread master;  // whose patience with silence is a minute
+  auto first = std::make_unique<Guest>(master, "first");
+  Guest second(master, "second");
+  submit(master, one_tile);
+  const std::uint32_t tile = first->next_assignment().tile;
+  first.reset();
+  EXPECT_EQ(second.next_assignment().tile, tile);
+  master.wait_for_workers(1);
+}
+
+TEST(Sessions, GiveATileToTheNextWhenAWorkerIsSilent) {
+  MasterThread master(DoorTimes{{10ms, 100ms, 100ms}, {}});
+  Guest silent(master, "silent");
+  submit(master, one_tile);
+  const std::uint32_t tile = silent.next_assignment().tile;
+  master.wait_for_workers(0);
+  Guest next(master, "next");
+  EXPECT_EQ(next.next_assignment().tile, tile);
+}
+
+TEST(Sessions, EndWithAWorkerThatLies) {
+  MasterThread master;
+  const JobId job = submit(master, one_tile);
+  const auto lies = [&](const Assignment& a) {
+    const auto images = *position_tile(one_tile, 0, all_passes, [] { return false; });
+    auto short_of_a_pass = images, short_of_a_pixel = images;
+    short_of_a_pass.pop_back();
+    short_of_a_pixel.back().rgb.resize(short_of_a_pixel.back().rgb.size() - 3);
+    return std::vector<Bytes>{encode(ToMaster{Result{a.lease, job, 1, images, 0.1}}),
+                              encode(ToMaster{Result{a.lease, job, 0, short_of_a_pass, 0.1}}),
+                              encode(ToMaster{Result{a.lease, job, 0, short_of_a_pixel, 0.1}}),
+                              encode(ToMaster{hello_from("again")}), Bytes(100, 0xff)};
+  };
+  for (std::size_t i = 0; i < 5; ++i) {
+    Guest liar(master, "liar");
+    liar.send_bytes(lies(liar.next_assignment())[i]);
+    liar.wait_for_end();
+    master.wait_for_workers(0);
+  }
+  EXPECT_EQ(master.ask([&](Farm& farm, FarmTime now) { return farm.job(job, now); })->pixels_done, 0u);
+}
+
+TEST(Sessions, SayGoodbyeToAllWhenTheMasterStops) {
+  MasterThread master;
+  Guest one(master, "one"), two(master, "two");
+  Peer three(master);
+  master.stop();
+  for (Guest* guest : {&one, &two}) {
+    EXPECT_EQ(guest->receive_a<Goodbye>().reason, "the master stops");
+    guest->wait_for_end();
+  }
+  three.wait_for_end();
+  master.wait_for_end();
+}
+
+TEST(Sessions, StayOnTheirOwnPcUnlessTold) {
+  asio::io_context io;
+  LiveFarm farm;
+  EXPECT_THROW(Sessions(io, farm, {"0.0.0.0", 0}, Exposure::loopback_only), ExposureError);
+  EXPECT_NO_THROW(Sessions(io, farm, {"0.0.0.0", 0}, Exposure::insecure));
+}
+
+TEST(DialTarget, HasANameAndAnAddress) {
+  const DialTarget target = parse_dial_target("lab7=192.168.1.7:80");
+  EXPECT_EQ(target.name, "lab7");
+  EXPECT_EQ(target.address, (Address{"192.168.1.7", 80}));
+  EXPECT_EQ(parse_dial_target("a=b").address.port, default_farm_port);
+  for (const char* text : {"", "lab7", "=host", "lab7=", "lab7=host:x"})
+    EXPECT_THROW(parse_dial_target(text), AddressError) << text;
+}
+
+}  // namespace
+}  // namespace rayfarm

@@ -1,0 +1,75 @@
+// A farm with its door for workers, on a thread of its own.
+#pragma once
+#include <asio/post.hpp>
+#include <future>
+
+#include "common/net/run_until_end.h"
+#include "master/sessions.h"
+
+namespace rayfarm {
+
+/// No deadline within a test; back-off without waiting.
+inline DoorTimes patient_door() {
+  using namespace std::chrono_literals;
+  return {{100ms, 60s, 60s}, {1ms, 10ms}};
+}
+
+class MasterThread {
+  /// Runs the call on the farm's thread, and waits.
+  template <class Call>
+  auto on_thread(Call call) {
+    std::packaged_task<decltype(call())()> task(std::move(call));
+    auto answer = task.get_future();
+    asio::post(io_, std::move(task));
+    return answer.get();
+  }
+
+ public:
+  explicit MasterThread(DoorTimes times = patient_door(), const Address& listen = {"127.0.0.1", 0})
+      : sessions_(io_, farm_, listen, Exposure::loopback_only, times) {
+    ended_ = std::async(std::launch::async, [this] { run_until_end(io_, sessions_.run()); });
+  }
+  /// As kill -9 would: nobody is told.
+  ~MasterThread() { io_.stop(); }
+
+  const Address& address() const { return sessions_.listening_at(); }
+
+  /// What question(farm, now) answers on the farm's thread.
+  template <class Question>
+  auto ask(Question question) {
+    return on_thread([&] { return farm_.apply(question); });
+  }
+  /// Waits until the farm says yes.
+  template <class Question>
+  void wait_until(Question question) {
+    while (!ask([&](Farm& farm, FarmTime) { return question(farm); })) std::this_thread::yield();
+  }
+  void wait_for_workers(std::size_t count) {
+    wait_until([&](Farm& farm) { return farm.workers().size() == count; });
+  }
+  void dial(DialTarget target) {
+    on_thread([&] { sessions_.dial(std::move(target)); });
+  }
+  /// Made on the farm's thread, as it must be.
+  template <class Made, class... Arguments>
+  std::shared_ptr<Made> make(Arguments... arguments) {
+    return on_thread([&] { return std::make_shared<Made>(io_, farm_, std::move(arguments)...); });
+  }
+  template <class Made>
+  void end(std::shared_ptr<Made>& made) {
+    on_thread([&] { made.reset(); });
+  }
+
+  void stop() {
+    on_thread([&] { sessions_.stop(); });
+  }
+  void wait_for_end() { ended_.get(); }
+
+ private:
+  asio::io_context io_;
+  LiveFarm farm_;
+  Sessions sessions_;
+  std::future<void> ended_;  // first to go: waits for the thread
+};
+
+}  // namespace rayfarm
