@@ -109,9 +109,13 @@ void Farm::State::revoke_everywhere(JobId job) {
 void Farm::State::end(Job& job, JobState state, FarmTime now) {
   job.state = state;
   job.ended = now;
+  job.spec.scene_bytes.reset();
   ++revision;
   update_queue(job);
   for (auto& [id, worker] : workers) forget(worker, job.id);
+  ended_jobs.push_back(job.id);
+  drop_old_jobs();
+  drop_old_films();
 }
 
 }  // namespace rayfarm

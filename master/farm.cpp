@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> worker_state_names{"idle", "busy", "dr
 std::string_view name_of(JobState state) { return job_state_names.at(static_cast<std::size_t>(state)); }
 std::string_view name_of(WorkerState state) { return worker_state_names.at(static_cast<std::size_t>(state)); }
 
-Farm::Farm() : state_(std::make_unique<State>()) {}
+Farm::Farm(FarmLimits limits) : state_(std::make_unique<State>()) { state_->limits = limits; }
 Farm::~Farm() = default;
 
 // Workers. ----------------------------------------------------------------------------------
@@ -125,7 +125,7 @@ bool Farm::resume(JobId id, FarmTime now) {
   if (job == nullptr) return false;
   if (job->state != JobState::paused) return true;
   job->state = job->started ? JobState::running : JobState::waiting;
-  if (job->canvas) job->pace.restart(now, job->canvas->film->pixels_done());
+  if (job->canvas) job->pace.restart(now, job->pixels_done);
   ++state_->revision;
   state_->tell(title_of(*job) + " resumed");
   state_->update_queue(*job);

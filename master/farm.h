@@ -11,8 +11,8 @@
 // thread and two more, and beyond that as many as keep it busy for 250 ms by its learned speed.
 //
 // Memory: a job costs what its scene costs until its first assignment, then 12 bytes a pixel for the film
-// (3.7 MB for 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. Ended jobs keep their film: it is
-// fetched later.
+// (3.7 MB for 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. An ended job drops its scene and keeps
+// its film, which is fetched later, as long as FarmLimits say.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -55,10 +55,17 @@ struct JobSpec {
   std::string key;    // submit --id: the same key gives the same job again; empty: none
 };
 
+/// What of ended jobs is kept; those that ended first go first. A job that loses its film loses its key, too.
+struct FarmLimits {
+  std::uint64_t film_bytes = std::uint64_t{2} << 30;  // all films; the last one that ended stays, however big
+  std::size_t jobs = 1000;                            // at least 1; the others are as if they had never been
+};
+
 /// A job as people see it.
 struct JobView {
   JobId id{};
-  std::string name, output, scene_hash, message;  // message: why it failed, or why a worker gave it back
+  std::string name, output, scene_hash;
+  std::string message;  // why it failed, why a worker gave it back, that its picture is gone
   JobState state = JobState::waiting;
   int priority = 0;
   RenderSettings settings;
@@ -100,7 +107,7 @@ class Farm {
   /// Must not call the farm.
   using Send = std::function<void(ToWorker)>;
 
-  Farm();
+  explicit Farm(FarmLimits limits = {});
   ~Farm();
 
   /// Sends Welcome with the worker's name (made unique: the second "pc" is "pc-2"; a name is free again when
@@ -133,8 +140,8 @@ class Farm {
   std::optional<JobView> job(JobId id, FarmTime now) const;
   std::vector<WorkerView> workers() const;        // in order of joining
   std::string name_of_worker(WorkerId id) const;  // empty: not here
-  /// The film of a job; null when there is no such job or nothing of it was assigned yet. Grows while the job
-  /// runs.
+  /// The film of a job; null when there is no such job, nothing of it was assigned yet, or it is no longer
+  /// kept. Grows while the job runs.
   std::shared_ptr<const Film> film(JobId id) const;
   /// Grows with every change of a job: to wait for news.
   std::uint64_t revision() const;

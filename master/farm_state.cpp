@@ -1,6 +1,7 @@
 #include "master/farm_state.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rayfarm {
 
@@ -27,6 +28,28 @@ NameId Farm::State::id_of_name(const std::string& name) {
   const auto [known, is_new] = name_ids.try_emplace(name, NameId{static_cast<std::uint32_t>(names.size())});
   if (is_new) names.push_back(name);
   return known->second;
+}
+
+void Farm::State::drop_old_jobs() {
+  for (; ended_jobs.size() > limits.jobs; ended_jobs.pop_front()) {
+    const auto oldest = jobs.find(ended_jobs.front());
+    job_by_key.erase(oldest->second.spec.key);
+    jobs.erase(oldest);
+  }
+}
+
+void Farm::State::drop_old_films() {
+  std::uint64_t kept = 0;
+  for (auto id = ended_jobs.rbegin(); id != ended_jobs.rend(); ++id) {
+    Job& job = jobs.at(*id);
+    if (!job.canvas) continue;
+    kept += film_bytes(job);
+    if (kept <= limits.film_bytes || *id == ended_jobs.back()) continue;
+    job.canvas.reset();
+    job_by_key.erase(std::exchange(job.spec.key, {}));
+    job.message += (job.message.empty() ? "" : "; ") + std::string("its picture is no longer kept");
+    ++revision;
+  }
 }
 
 }  // namespace rayfarm

@@ -1,5 +1,6 @@
 // What a farm is made of, and the steps that its calls share. Only farm's own files include this.
 #pragma once
+#include <deque>
 #include <map>
 #include <set>
 #include <string>
@@ -13,7 +14,9 @@
 namespace rayfarm {
 
 struct Farm::State {
+  FarmLimits limits;
   std::map<JobId, Job> jobs;
+  std::deque<JobId> ended_jobs;  // all of them, in the order of their ends
   std::map<std::string, JobId> job_by_key;
   std::map<WorkerId, Worker> workers;
   std::set<std::string, std::less<>> drained_names;
@@ -58,7 +61,10 @@ struct Farm::State {
 
   /// After a change of the job's state, priority or waiting work.
   void update_queue(const Job& job);
+  /// Other jobs that ended may be dropped.
   void end(Job& job, JobState state, FarmTime now);
+  void drop_old_jobs();
+  void drop_old_films();
 };
 
 }  // namespace rayfarm

@@ -10,6 +10,10 @@ bool has_ended(const Job& job) {
   return job.state == JobState::done || job.state == JobState::cancelled || job.state == JobState::failed;
 }
 
+std::uint64_t film_bytes(const Job& job) {
+  return std::uint64_t{job.spec.settings.width} * job.spec.settings.height * 3 * sizeof(float);
+}
+
 bool wants_workers(const Job& job) {
   if (job.state != JobState::waiting && job.state != JobState::running) return false;
   return !job.canvas || job.canvas->schedule.has_waiting();
@@ -33,7 +37,7 @@ JobView view_of(const Job& job, FarmTime now) {
   view.state = job.state;
   view.priority = spec.priority;
   view.settings = spec.settings;
-  view.pixels_done = job.canvas ? job.canvas->film->pixels_done() : 0;
+  view.pixels_done = job.pixels_done;
   view.pixels_total = std::uint64_t{spec.settings.width} * spec.settings.height;
   view.counters = job.counters;
   view.submitted = job.submitted;
@@ -67,8 +71,9 @@ void commit(Job& job, const Work& work, const std::vector<PassImage>& images, Na
     job.canvas->delivered_by[work.tile][image.pass] = by;
     job.counters += image.counters;
   }
+  job.pixels_done = job.canvas->film->pixels_done();
   job.canvas->schedule.finish(work);
-  job.pace.advance(now, job.canvas->film->pixels_done());
+  job.pace.advance(now, job.pixels_done);
 }
 
 std::optional<NameId> contradicted(const Job& job, std::uint32_t tile, const std::vector<PassImage>& images) {

@@ -32,6 +32,7 @@ struct Job {
   JobState state = JobState::waiting;
   std::string message;
   std::optional<Canvas> canvas;
+  std::uint64_t pixels_done = 0;  // as the film says while there is one
   RayCounters counters;
   Pace pace;
   FarmTime submitted{};
@@ -41,6 +42,8 @@ struct Job {
 
 Size size_of(const RenderSettings& settings);
 bool has_ended(const Job& job);
+/// What its film takes, once all pixels are there.
+std::uint64_t film_bytes(const Job& job);
 /// May be worked on, and some of it is waiting.
 bool wants_workers(const Job& job);
 /// As people know it: job 7 (sphere_flake).

@@ -62,9 +62,12 @@ void Farm::State::deliver(Worker& worker, const Lease& lease, const Result& resu
 
 void Farm::State::compare_late(Worker& worker, const Result& result) {
   if (static_cast<std::uint64_t>(result.lease) > last_lease) tell_off(result, "no such lease was given");
+  if (static_cast<std::uint64_t>(result.job) > last_job) tell_off(result, "there never was such a job");
   const auto found = jobs.find(result.job);
-  if (found == jobs.end() || !found->second.canvas) tell_off(result, "nothing of that job was given");
+  const bool is_gone = found == jobs.end() || (has_ended(found->second) && !found->second.canvas);
+  if (is_gone) return;  // there is nothing left to compare it with
   const Job& job = found->second;
+  if (!job.canvas) tell_off(result, "nothing of that job was given");
   const Size film = size_of(job.spec.settings);
   if (result.tile >= tile_count(film)) tell_off(result, "the picture has no such tile");
   if (const auto fault = fault_of(result.images, film, {result.tile, passes_in(result.images)}))
@@ -105,7 +108,7 @@ void Farm::State::refuse(Worker& worker, Job& job, const std::string& reason, Fa
   revoke(worker, job.id);
   const bool somebody_can = std::ranges::any_of(
       workers, [&](const auto& w) { return !w.second.is_stopping && !refuses(w.second, job.id); });
-  if (somebody_can || job.canvas->film->pixels_done() > 0) return;
+  if (somebody_can || job.pixels_done > 0) return;
   warn(title_of(job) + " failed: no worker can render it; " + job.message);
   end(job, JobState::failed, now);
 }

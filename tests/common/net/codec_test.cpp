@@ -58,7 +58,8 @@ TEST(SceneCodec, ChecksWhatItDecodes) {
   EXPECT_THROW(decode_scene(encode_scene(scene)), SceneError);
 }
 
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+template <class Floats>
+bool same_bits(const Floats& a, const Floats& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 

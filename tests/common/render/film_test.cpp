@@ -1,8 +1,10 @@
 #include "common/render/film.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <random>
 
 namespace rayfarm {
@@ -85,7 +87,7 @@ TEST(Film, IsThePictureOfItsPixelsWhenComplete) {
     for (std::uint32_t y = 0; y < size.height; ++y)
       for (std::uint32_t x = 0; x < size.width; ++x)
         for (int c = 0; c < 3; ++c) ASSERT_EQ(film.rgb()[i++], value_at(x, y, c));
-    EXPECT_EQ(film.filled(), film.rgb());
+    EXPECT_TRUE(std::ranges::equal(film.filled(), film.rgb()));
   }
 }
 
@@ -110,6 +112,20 @@ TEST(Film, PixelsNotThereYetAreBlack) {
   for (std::uint32_t x = 0; x < 64; ++x) EXPECT_EQ(film.rgb()[3 * x], 0.0f);
   EXPECT_EQ(film.rgb()[3 * 64], value_at(64, 0, 0));
   EXPECT_EQ(film.rgb()[3 * 65], 0.0f);
+}
+
+/// What the program keeps in memory now, in bytes.
+std::uint64_t memory_in_use() {
+  std::uint64_t all_pages = 0, pages_in_use = 0;
+  std::ifstream("/proc/self/statm") >> all_pages >> pages_in_use;
+  return pages_in_use * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+TEST(Film, TakesMemoryForThePixelsThatAreThereOnly) {
+  const std::uint64_t before = memory_in_use();
+  Film film({20'000, 10'000});  // 2.4 GB
+  film.put(77, image_of({20'000, 10'000}, 77, 0));
+  EXPECT_LT(memory_in_use() - before, 100u << 20);
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ Result rendered(const Assignment& assignment, Size film, double seconds) {
   return result;
 }
 
-std::vector<float> made_up_picture(JobId job, Size film) {
-  std::vector<float> picture;
+ZeroedVector<float> made_up_picture(JobId job, Size film) {
+  ZeroedVector<float> picture;
   for (std::uint32_t y = 0; y < film.height; ++y)
     for (std::uint32_t x = 0; x < film.width; ++x)
       for (int c = 0; c < 3; ++c) picture.push_back(made_up_value(job, x, y, c));

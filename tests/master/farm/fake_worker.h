@@ -14,7 +14,7 @@ float made_up_value(JobId job, std::uint32_t x, std::uint32_t y, int channel);
 /// What an honest worker answers to an assignment.
 Result rendered(const Assignment& assignment, Size film, double seconds = 1);
 /// The whole picture, as the farm's film must be in the end.
-std::vector<float> made_up_picture(JobId job, Size film);
+ZeroedVector<float> made_up_picture(JobId job, Size film);
 /// What the counters of a whole picture must sum up to.
 RayCounters made_up_counters(Size film);
 

@@ -1,0 +1,131 @@
+// What the farm keeps of jobs that have ended, so that a master can run for ever.
+#include <gtest/gtest.h>
+
+#include "tests/master/farm/fake_worker.h"
+
+namespace rayfarm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Size one_tile{64, 64};
+constexpr std::uint64_t one_film = 64 * 64 * 12;
+
+WorkerInfo pc() { return {.name = "pc", .threads = 2}; }
+
+JobId done_job(Farm& farm, FakeWorker& worker, Size size = one_tile) {
+  const JobId job = farm.submit(job_of(size), 0s);
+  worker.finish_all();
+  return job;
+}
+
+TEST(EndedJobs, KeepTheirFilmsWithinTheBudgetTheNewestFirst) {
+  Farm farm({.film_bytes = 2 * one_film});
+  FakeWorker worker(farm, pc());
+  for (int i = 0; i < 5; ++i) done_job(farm, worker);
+  for (const JobView& job : farm.jobs(0s)) {
+    const bool is_kept = job.id >= JobId{4};
+    EXPECT_EQ(farm.film(job.id) != nullptr, is_kept);
+    EXPECT_EQ(job.message, is_kept ? "" : "its picture is no longer kept");
+    EXPECT_EQ(job.state, JobState::done);
+    EXPECT_EQ(job.pixels_done, 64u * 64u);
+  }
+  EXPECT_EQ(farm.film(JobId{5})->rgb(), made_up_picture(JobId{5}, one_tile));
+}
+
+TEST(EndedJobs, TheLastOneKeepsItsFilmHoweverBig) {
+  Farm farm({.film_bytes = one_film});
+  FakeWorker worker(farm, pc());
+  const JobId small = done_job(farm, worker), big = done_job(farm, worker, {640, 640});
+  EXPECT_EQ(farm.film(small), nullptr);
+  EXPECT_NE(farm.film(big), nullptr);
+  const JobId next = done_job(farm, worker);
+  EXPECT_EQ(farm.film(big), nullptr);
+  EXPECT_NE(farm.film(next), nullptr);
+}
+
+TEST(EndedJobs, FilmsOfJobsThatGoOnDoNotCountAndAreNotDropped) {
+  Farm farm({.film_bytes = one_film});
+  FakeWorker worker(farm, pc());
+  const JobId paused = farm.submit(job_of({640, 640}), 0s);
+  worker.finish_one();
+  farm.pause(paused, 0s);
+  const JobId first = done_job(farm, worker);
+  EXPECT_NE(farm.film(first), nullptr);
+  done_job(farm, worker);
+  EXPECT_NE(farm.film(paused), nullptr);
+  farm.resume(paused, 0s);
+  worker.finish_all();
+  EXPECT_EQ(farm.film(paused)->rgb(), made_up_picture(paused, {640, 640}));
+}
+
+TEST(EndedJobs, ACancelledJobWhosePictureIsDroppedStillSaysHowMuchWasDone) {
+  Farm farm({.film_bytes = one_film});
+  FakeWorker worker(farm, pc());
+  const JobId cancelled = farm.submit(job_of({640, 64}), 0s);
+  worker.finish_one();
+  farm.cancel(cancelled, 0s);
+  EXPECT_EQ(farm.film(cancelled)->pixels_done(), 64u * 64u);
+  done_job(farm, worker);
+  EXPECT_EQ(farm.film(cancelled), nullptr);
+  EXPECT_EQ(farm.job(cancelled, 0s)->pixels_done, 64u * 64u);
+}
+
+TEST(EndedJobs, AreForgottenWhenTheyAreTooMany) {
+  Farm farm({.jobs = 3});
+  FakeWorker worker(farm, pc());
+  const JobId held = farm.submit(
+      [] {
+        JobSpec spec = job_of(one_tile);
+        spec.hold = true;
+        return spec;
+      }(),
+      0s);
+  for (int i = 0; i < 5; ++i) done_job(farm, worker);
+  std::vector<JobId> known;
+  for (const JobView& job : farm.jobs(0s)) known.push_back(job.id);
+  EXPECT_EQ(known, (std::vector{held, JobId{4}, JobId{5}, JobId{6}}));
+  EXPECT_EQ(farm.job(JobId{2}, 0s), std::nullopt);
+  EXPECT_FALSE(farm.cancel(JobId{2}, 0s));
+}
+
+TEST(EndedJobs, FreeTheirKeysWithTheirPictures) {
+  Farm farm({.film_bytes = one_film});
+  FakeWorker worker(farm, pc());
+  JobSpec keyed = job_of(one_tile);
+  keyed.key = "mine";
+  const JobId job = farm.submit(keyed, 0s);
+  worker.finish_all();
+  EXPECT_EQ(farm.submit(keyed, 0s), job);
+  done_job(farm, worker);
+  EXPECT_NE(farm.submit(keyed, 0s), job);
+}
+
+TEST(EndedJobs, DropTheirScenes) {
+  Farm farm;
+  FakeWorker worker(farm, pc());
+  JobSpec spec = job_of(one_tile);
+  const std::weak_ptr<const std::vector<std::uint8_t>> scene = spec.scene_bytes;
+  farm.submit(std::move(spec), 0s);
+  EXPECT_FALSE(scene.expired());
+  worker.finish_all();
+  worker.take_messages();
+  EXPECT_TRUE(scene.expired());
+}
+
+// An honest worker's result may be under way while other jobs end.
+TEST(EndedJobs, LateResultsForThemAreNoLies) {
+  for (const FarmLimits limits : {FarmLimits{.film_bytes = 0}, FarmLimits{.jobs = 1}}) {
+    Farm farm(limits);
+    FakeWorker worker(farm, pc());
+    const JobId job = farm.submit(job_of({640, 64}), 0s);
+    const Assignment late = worker.held().at(0);
+    farm.cancel(job, 0s);
+    done_job(farm, worker);
+    ASSERT_EQ(farm.film(job), nullptr);
+    EXPECT_NO_THROW(farm.receive(worker.id(), rendered(late, {640, 64}), 1s));
+  }
+}
+
+}  // namespace
+}  // namespace rayfarm
