@@ -73,7 +73,7 @@ until [ "$("$bin/rayfarm" workers --json 2>/dev/null | grep -o 'worker-[12]' | s
 done
 
 picture=$demo/$(basename -- "$scene" .lua).png
-"$bin/rayfarm" submit "$scene" -o "$picture" --wait
+"$bin/rayfarm" submit "$scene" -o "$picture" --wait >/dev/null  # the job number
 
 echo
 echo "The picture:   $picture"
