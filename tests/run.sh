@@ -12,9 +12,9 @@ ctest --test-dir "$build" -j "$(nproc)" --output-on-failure 2>&1 | tee "$build/c
 ctest_code=${PIPESTATUS[0]}
 tests=$(grep -E '^[0-9]+% tests passed' "$build/ctest.log" | tail -n 1)
 
-builds=$("$top/tests/builds.sh" "$build" | tee /dev/stderr | tail -n 1; exit "${PIPESTATUS[0]}")
-builds_code=$?
+"$top/tests/builds.sh" "$build" 2>&1 | tee "$build/builds.log"
+builds_code=${PIPESTATUS[0]}
 
 if [ "$ctest_code" = 0 ] && [ "$builds_code" = 0 ]; then verdict=PASSED; else verdict=FAILED; fi
-echo "tests/run.sh: $verdict; ${tests:-no test ran}; $builds"
+echo "tests/run.sh: $verdict; ${tests:-no test ran}; $(tail -n 1 "$build/builds.log")"
 [ $verdict = PASSED ]
