@@ -28,8 +28,8 @@ void confine(std::uint64_t address_space_bytes) {
   set_hard_limit(RLIMIT_CORE, 0);
   set_hard_limit(RLIMIT_FSIZE, 0);
   set_hard_limit(RLIMIT_NPROC, 0);
+#ifndef __SANITIZE_ADDRESS__  // sanitizers reserve terabytes of addresses, and look at memory through pipes
   set_hard_limit(RLIMIT_NOFILE, 0);
-#ifndef __SANITIZE_ADDRESS__  // whose shadow memory takes terabytes of addresses
   set_hard_limit(RLIMIT_AS, address_space_bytes);
 #else
   (void)address_space_bytes;
