@@ -37,8 +37,7 @@ Crew::~Crew() {
   changed_.notify_all();
 }
 
-// What a master says.
-// ------------------------------------------------------------------------------------------
+// What a master says. --------------------------------------------------------------------------------------
 
 void Crew::begin(Answer answer) {
   const Lock lock(mutex_);
@@ -114,8 +113,7 @@ std::vector<LeaseId> Crew::abandon() {
   return leases;
 }
 
-// Under the lock.
-// ----------------------------------------------------------------------------------------------
+// Under the lock. ------------------------------------------------------------------------------------------
 
 void Crew::give_back(LeaseId lease, std::string reason) { answer_(GiveBack{{lease}, std::move(reason)}); }
 
@@ -141,8 +139,7 @@ std::vector<LeaseId> Crew::stop_running() {
   return leases;
 }
 
-// The threads.
-// -------------------------------------------------------------------------------------------------
+// The threads. ---------------------------------------------------------------------------------------------
 
 void Crew::work() {
   Lock lock(mutex_);

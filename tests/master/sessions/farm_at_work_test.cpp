@@ -106,6 +106,7 @@ TEST(FarmAtWork, LosesNothingWhenAWorkerStopsCleanly) {
   leaving.stop();
   gate.open();
   leaving.wait_for_end();
+  master.wait_for_workers(0);
   EXPECT_GT(job.view().pixels_done, 0u);  // what was begun was delivered
   WorkerThread next(worker_for(master.address(), "next"), prepare_positions);
   EXPECT_EQ(job.finished_film().rgb(), rendered(position_tile, settings).rgb());
