@@ -36,8 +36,8 @@ inline double half_area(const Box& b) {
   return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-/// Where the ray is in the box (not empty, or nowhere()), 0 <= entry; it misses when entry > exit. Conservative: rounding never loses a
-/// box. Source: T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
+/// Where the ray is in the box (not empty, or nowhere()), 0 <= entry; it misses when entry > exit.
+/// Conservative: rounding never loses a box. Source: T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
 struct BoxSpan {
   double entry, exit;
 };
@@ -48,7 +48,8 @@ inline BoxSpan span_in(const Box& box, const RayQuery& q, double t_max) {
   for (int axis = 0; axis < 3; ++axis) {
     const double o = q.ray.origin[axis], inverse = q.inverse[axis];
     const double a = (box.low[axis] - o) * inverse, b = (box.high[axis] - o) * inverse;
-    // 0 * infinity is NaN, which compares false; in this order of arguments a ray in the box's face counts as inside.
+    // 0 * infinity is NaN, which compares false; in this order of arguments a ray in the box's face counts as
+    // inside.
     entry = greatest(entry, least(a, b));
     exit = least(exit, greatest(b, a) * (1 + 8 * unit_roundoff));
   }

@@ -13,7 +13,7 @@
 
 #include "common/geometry/bounds.h"
 #include "common/geometry/leaf.h"
-#include "common/scene/scene.h"
+#include "common/geometry/solid.h"
 
 namespace rayfarm {
 

@@ -2,8 +2,8 @@
 // parallel to the axis is in the tube for ever or never, so exactly axial rays find the caps.
 #pragma once
 #include "common/geometry/cube.h"
+#include "common/geometry/solid.h"
 #include "common/geometry/sphere.h"
-#include "common/scene/scene.h"
 
 namespace rayfarm {
 

@@ -6,10 +6,10 @@
 #include "common/geometry/cylinder.h"
 #include "common/geometry/plane.h"
 #include "common/geometry/ray.h"
+#include "common/geometry/solid.h"
 #include "common/geometry/sphere.h"
 #include "common/geometry/surface_point.h"
 #include "common/math/affine.h"
-#include "common/scene/scene.h"
 
 namespace rayfarm {
 

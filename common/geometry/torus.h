@@ -9,8 +9,8 @@
 #pragma once
 #include "common/geometry/crossing.h"
 #include "common/geometry/ray.h"
+#include "common/geometry/solid.h"
 #include "common/geometry/surface_point.h"
-#include "common/scene/scene.h"
 
 namespace rayfarm {
 

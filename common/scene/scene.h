@@ -1,8 +1,7 @@
 // What a picture shows, as one value: the CSG tree with its surfaces, the camera, the lights.
 // A Scene is all that travels (to the master, to workers, to disk); each side builds its World from it.
 //
-// Space: world is x right, y up; colours are linear Rec. 709 RGB, unbounded; lengths are the scene's own
-// unit.
+// Space: world is x right, y up; colours are linear Rec. 709 RGB, unbounded; lengths are the scene's own unit.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,37 +13,12 @@
 #include <variant>
 #include <vector>
 
+#include "common/geometry/solid.h"
 #include "common/math/affine.h"
 
 namespace rayfarm {
 
-// Solids, each in its local space.
-// -----------------------------------------------------------------------------
-
-struct Sphere {  // unit radius about the origin
-  bool operator==(const Sphere&) const = default;
-};
-struct Cube {  // [0,1]^3
-  bool operator==(const Cube&) const = default;
-};
-struct Plane {  // the half-space z < 0; its face is z = 0
-  bool operator==(const Plane&) const = default;
-};
-struct Cylinder {  // x^2 + y^2 < 1, z_min < z < z_max; infinite limits mean no cap
-  double z_min = -std::numeric_limits<double>::infinity();
-  double z_max = std::numeric_limits<double>::infinity();
-  bool operator==(const Cylinder&) const = default;
-};
-/// Axis z; the tube's centre runs on the circle of radius R in z = 0, the tube has radius r. Both > 0. A
-/// spindle torus (R < r) is the apple without the lemon.
-struct Torus {
-  double R = 1, r = 0.25;
-  bool operator==(const Torus&) const = default;
-};
-using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus>;
-
 // Surfaces.
-// ----------------------------------------------------------------------------------------------------
 
 /// Phong's model with Schlick's factor. Weights are >= 0.
 struct Material {
@@ -66,9 +40,6 @@ struct Checker {
 using Texture = std::variant<Checker>;
 
 // The tree.
-// ----------------------------------------------------------------------------------------------------
-
-enum class CsgOp : std::uint8_t { unite, intersect, subtract, exclusive_or };
 
 /// An inner node: its `children` subtrees follow it in preorder; they are combined from left to right.
 struct Operation {
@@ -88,7 +59,6 @@ struct Node {
 };
 
 // Cameras and lights.
-// ------------------------------------------------------------------------------------------
 
 struct PerspectiveCamera {
   glm::dvec3 from{0.0};
@@ -119,7 +89,6 @@ struct RectangleLight {
 using Light = std::variant<AmbientLight, PointLight, RectangleLight>;
 
 // The whole.
-// ---------------------------------------------------------------------------------------------------
 
 /// What the scene asks for; the command line stands above it, the built-in default below.
 struct ImageDefaults {
