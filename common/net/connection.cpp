@@ -12,8 +12,9 @@
 namespace rayfarm {
 namespace {
 
-constexpr std::size_t queue_limit = 64u
-                                    << 20;  // bytes; over 1,000 results, or a peer that has stopped reading
+// Bytes; twice the results of all the leases that a worker can hold.
+constexpr std::size_t queue_limit = 128u << 20;
+constexpr std::size_t batch_size = 1u << 20;  // bytes written at once
 constexpr std::size_t buffer_size = 64u << 10;  // grows for larger frames, as their bytes come
 constexpr std::size_t least_rate = 64u << 10;   // bytes per second that a large frame must make
 
@@ -35,6 +36,16 @@ std::string seconds(std::chrono::milliseconds time) {
 [[noreturn]] void lose(const asio::system_error& error) {
   if (error.code() == asio::error::eof) throw ConnectionLost("the other side closed the connection");
   throw ConnectionLost(error.code().message());
+}
+
+/// Small frames go out together, but not so many that what has long arrived counts as queued.
+std::vector<Frame> take_batch(std::deque<Frame>& queue) {
+  std::vector<Frame> batch;
+  for (std::size_t bytes = 0; !queue.empty() && bytes < batch_size; queue.pop_front()) {
+    bytes += queue.front().head.size();
+    batch.push_back(std::move(queue.front()));
+  }
+  return batch;
 }
 
 std::vector<asio::const_buffer> buffers_of(const std::vector<Frame>& frames) {
@@ -127,8 +138,7 @@ asio::awaitable<void> Connection<In, Out>::write() try {
       asio::error_code woken;
       co_await queue_changed_.async_wait(asio::redirect_error(asio::use_awaitable, woken));
     }
-    const std::vector<Frame> batch(std::move_iterator(queue_.begin()), std::move_iterator(queue_.end()));
-    queue_.clear();
+    const std::vector<Frame> batch = take_batch(queue_);
     const std::vector<asio::const_buffer> buffers = buffers_of(batch);
     write_due_ = due(asio::buffer_size(buffers));
     co_await asio::async_write(socket_, buffers, asio::use_awaitable);
