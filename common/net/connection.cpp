@@ -14,7 +14,7 @@ namespace {
 
 // Bytes; twice the results of all the leases that a worker can hold.
 constexpr std::size_t queue_limit = 128u << 20;
-constexpr std::size_t batch_size = 1u << 20;  // bytes written at once
+constexpr std::size_t batch_size = 1u << 20;    // bytes written at once
 constexpr std::size_t buffer_size = 64u << 10;  // grows for larger frames, as their bytes come
 constexpr std::size_t least_rate = 64u << 10;   // bytes per second that a large frame must make
 
