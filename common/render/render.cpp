@@ -1,20 +1,8 @@
 #include "common/render/render.h"
 
-#include <limits>
-
-#include "common/render/trace.h"
+#include "common/render/pixel.h"
 
 namespace rayfarm {
-namespace {
-
-constexpr std::uint32_t samples_between_questions = 16;  // a slow pixel must not delay a stop
-
-/// Not NaN, not infinite, also not as the film's float.
-bool is_finite(const Vec3d& c) {
-  return max_abs(c) <= std::numeric_limits<float>::max() && c.x == c.x && c.y == c.y && c.z == c.z;
-}
-
-}  // namespace
 
 std::optional<std::vector<PassImage>> render_tile(const World& world, const RenderSettings& settings,
                                                   std::uint32_t tile_number, PassSet passes,
@@ -29,20 +17,12 @@ std::optional<std::vector<PassImage>> render_tile(const World& world, const Rend
     image.rgb.reserve(3 * std::size_t{pixel_count(tile, pass)});
     tracer.observer = {};
     for_each_pixel(tile, pass, [&](std::uint32_t x, std::uint32_t y) {
-      const PixelSampler sampler(settings, {x, y});
-      Vec3d sum;
-      for (std::uint32_t s = 0; s < settings.spp; ++s) {
-        stopped = stopped || (s % samples_between_questions == 0 && stop());
-        if (stopped) return;
-        const Sample2D place = sampler.sample(s, 0);
-        const Vec3d color = tracer.radiance(
-            x + place.u, y + place.v, [&](std::uint32_t light) { return sampler.sample(s, 1 + light); });
-        if (is_finite(color))
-          sum += color;
-        else
-          ++image.counters.bad_samples;
-      }
-      for (int c = 0; c < 3; ++c) image.rgb.push_back(static_cast<float>(sum[c] / settings.spp));
+      if (stopped) return;
+      const std::optional<PixelSum> sum = pixel_sum(tracer, settings, {x, y}, stop);
+      stopped = !sum;
+      if (stopped) return;
+      image.counters.bad_samples += sum->bad_samples;
+      for (const float value : sum->mean(settings.spp)) image.rgb.push_back(value);
     });
     if (stopped) return std::nullopt;
     image.counters += tracer.observer.counters;

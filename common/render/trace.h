@@ -1,7 +1,16 @@
 // Recursive ray tracing of one sample. Source: T. Whitted, CACM 23(6), 1980.
 //
-// Observer is told of each ray as it is traced; the default counts. A recorder of the ray tree is another
-// observer: the same code runs, and who did not ask for a record does not pay for it.
+// An observer is told of each ray as it is traced; the default counts. A recorder of the ray tree is another
+// one: the same code runs, and who did not ask for a record does not pay for it. Told is, for each ray:
+//
+//   begin(weight)                               what it shows counts so much in its parent's colour
+//   traced(kind, ray, depth, importance, hit)   importance: the product of all weights up to here
+//     per light: [shadow_tested(ray, blocked)]  at t = 1 of the ray is the light
+//                lit(light, place, color)       color: what the light adds to the ray's
+//     reflected, refracted:                     begin() to ended() of that ray, or
+//                not_traced(kind, weight, why)
+//     depth_reached()                           instead of these, when the rays may not go deeper
+//   ended(color)
 #pragma once
 #include <span>
 #include <variant>
@@ -18,24 +27,7 @@ namespace rayfarm {
 
 enum class RayKind : std::uint8_t { primary, reflected, refracted };
 
-struct CountingObserver {
-  RayCounters counters;
-
-  void traced(RayKind kind, bool hit) {
-    switch (kind) {
-      case RayKind::primary:
-        ++counters.primary, counters.primary_hits += hit;
-        return;
-      case RayKind::reflected:
-        ++counters.reflected, counters.secondary_hits += hit;
-        return;
-      case RayKind::refracted:
-        ++counters.refracted, counters.secondary_hits += hit;
-        return;
-    }
-  }
-  void shadow_tested() { ++counters.shadow; }
-};
+enum class NotTraced : std::uint8_t { importance, total_reflection };
 
 /// A light as one sample sees it: an area light has become a point of its own.
 struct SampledLight {
@@ -44,12 +36,44 @@ struct SampledLight {
   const RectangleLight* dimmed = nullptr;
 };
 
+/// An observer that heeds nothing, to derive those from that heed something.
+struct IdleObserver {
+  void begin(double /*weight*/) {}
+  void traced(RayKind, const Ray&, std::uint32_t /*depth*/, double /*importance*/,
+              const std::optional<Hit>&) {}
+  void shadow_tested(const Ray&, bool /*blocked*/) {}
+  void lit(std::size_t /*light*/, const SampledLight&, const Vec3d& /*color*/) {}
+  void not_traced(RayKind, double /*weight*/, NotTraced) {}
+  void depth_reached() {}
+  void ended(const Vec3d& /*color*/) {}
+};
+
+struct CountingObserver : IdleObserver {
+  RayCounters counters;
+
+  void traced(RayKind kind, const Ray&, std::uint32_t, double, const std::optional<Hit>& hit) {
+    switch (kind) {
+      case RayKind::primary:
+        ++counters.primary, counters.primary_hits += hit.has_value();
+        return;
+      case RayKind::reflected:
+        ++counters.reflected, counters.secondary_hits += hit.has_value();
+        return;
+      case RayKind::refracted:
+        ++counters.refracted, counters.secondary_hits += hit.has_value();
+        return;
+    }
+  }
+  void shadow_tested(const Ray&, bool) { ++counters.shadow; }
+};
+
 /// Traces samples, one after another, in one thread.
 template <class Observer>
 class Tracer {
  public:
-  Tracer(const World& world, const RenderSettings& settings)
-      : world_(world.parts()),
+  Tracer(const World& world, const RenderSettings& settings, Observer observer = {})
+      : observer(std::move(observer)),
+        world_(world.parts()),
         settings_(settings),
         camera_(world.scene().camera, {settings.width, settings.height}),
         background_(vec(world.scene().background)) {}
@@ -58,6 +82,7 @@ class Tracer {
   template <class LightPoint>
   Vec3d radiance(double x, double y, LightPoint&& light_point) {
     place_lights(light_point);
+    observer.begin(1.0);
     return radiance(camera_.ray(x, y), RayKind::primary, 0, 1.0);
   }
 
@@ -95,33 +120,51 @@ class Tracer {
 
   Vec3d radiance(const Ray& ray, RayKind kind, std::uint32_t depth, double importance) {
     const std::optional<Hit> hit = nearest_hit(ray);
-    observer.traced(kind, hit.has_value());
-    if (!hit) return background_;
+    observer.traced(kind, ray, depth, importance, hit);
+    const Vec3d color = hit ? radiance_at(*hit, -ray.direction, depth, importance) : background_;
+    observer.ended(color);
+    return color;
+  }
 
-    const Vec3d to_viewer = -ray.direction;
+  Vec3d radiance_at(const Hit& hit, const Vec3d& to_viewer, std::uint32_t depth, double importance) {
     // Grazing, the rounded cosine can have the wrong sign; the side is known from the boundary.
-    const double rounded = dot(hit->normal, to_viewer);
-    const double cos_view = hit->entering ? greatest(rounded, smallest) : least(rounded, -smallest);
-    Vec3d color = lights_.empty() ? hit->color : Vec3d{};
-    for (const SampledLight& light : lights_)
-      color += light.intensity * lit(*hit, to_viewer, cos_view, light);
-    if (depth >= settings_.max_depth) return color;
+    const double rounded = dot(hit.normal, to_viewer);
+    const double cos_view = hit.entering ? greatest(rounded, smallest) : least(rounded, -smallest);
+    Vec3d color = lights_.empty() ? hit.color : Vec3d{};
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      const Vec3d added = lights_[i].intensity * lit(hit, to_viewer, cos_view, lights_[i]);
+      observer.lit(i, lights_[i], added);
+      color += added;
+    }
+    if (depth >= settings_.max_depth) {
+      observer.depth_reached();
+      return color;
+    }
 
-    const Material& material = *hit->material;
+    const Material& material = *hit.material;
     if (settings_.reflections) {
-      const double weight = phong_weights(material, cos_view, hit->entering).specular;
-      if (goes_on(importance * weight))
-        color += radiance(ray_from(*hit, mirrored(to_viewer, hit->normal), hit->entering), RayKind::reflected,
+      const double weight = phong_weights(material, cos_view, hit.entering).specular;
+      if (goes_on(importance * weight)) {
+        observer.begin(weight);
+        color += radiance(ray_from(hit, mirrored(to_viewer, hit.normal), hit.entering), RayKind::reflected,
                           depth + 1, importance * weight) *
                  weight;
+      } else {
+        observer.not_traced(RayKind::reflected, weight, NotTraced::importance);
+      }
     }
     if (settings_.refractions) {
       const double weight = material.transmission;
-      if (goes_on(importance * weight))
-        if (const std::optional<Vec3d> direction = refracted(to_viewer, hit->normal, material.index))
-          color += radiance(ray_from(*hit, *direction, !hit->entering), RayKind::refracted, depth + 1,
-                            importance * weight) *
-                   weight;
+      if (!goes_on(importance * weight)) {
+        observer.not_traced(RayKind::refracted, weight, NotTraced::importance);
+      } else if (const std::optional<Vec3d> direction = refracted(to_viewer, hit.normal, material.index)) {
+        observer.begin(weight);
+        color += radiance(ray_from(hit, *direction, !hit.entering), RayKind::refracted, depth + 1,
+                          importance * weight) *
+                 weight;
+      } else {
+        observer.not_traced(RayKind::refracted, weight, NotTraced::total_reflection);
+      }
     }
     return color;
   }
@@ -135,8 +178,10 @@ class Tracer {
     const Vec3d to_light = light.at - hit.point;
     if (!(dot(to_light, hit.normal) > 0)) return {};
     if (settings_.shadows) {
-      observer.shadow_tested();
-      if (is_blocked(world_, RayQuery(ray_from(hit, to_light, true)), workspace_)) return {};
+      const RayQuery query(ray_from(hit, to_light, true));
+      const bool blocked = is_blocked(world_, query, workspace_);
+      observer.shadow_tested(query.ray, blocked);
+      if (blocked) return {};
     }
     const double distance = length(to_light);
     const Vec3d direct =
