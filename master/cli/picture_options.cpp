@@ -34,10 +34,8 @@ std::map<std::string, std::string> params_of(const std::vector<std::string>& tex
 
 }  // namespace
 
-void add_picture_options(CLI::App& command, PictureOptions& o) {
+void add_sample_options(CLI::App& command, PictureOptions& o) {
   command.add_option("SCENE", o.scene_file, "Scene script (Lua)")->required();
-  command.add_option("-o,--output", o.output, "Picture to write, .exr (linear float) or .png (8 bit)")
-      ->required();
   command.add_option("--size", o.size, "Width and height in pixels, e.g. 640x480");
   command.add_option("--spp", o.spp, "Samples per pixel (default 16)");
   command.add_option("--sampler", o.sampler, "sobol (default), jitter, regular or random");
@@ -52,6 +50,12 @@ void add_picture_options(CLI::App& command, PictureOptions& o) {
   command.add_option("-p,--param", o.params, "A parameter of the script, key=value; may be repeated")
       ->allow_extra_args(false);
   command.add_option("--frame", o.frame, "Frame of an animation, from 0");
+}
+
+void add_picture_options(CLI::App& command, PictureOptions& o) {
+  add_sample_options(command, o);
+  command.add_option("-o,--output", o.output, "Picture to write, .exr (linear float) or .png (8 bit)")
+      ->required();
   command.add_flag("--srgb", o.srgb, "PNG with the sRGB curve instead of gamma 2.2");
 }
 

@@ -1,4 +1,4 @@
-// The options that say what picture is made: the same for render and submit.
+// The options that say what picture is made: the same for all commands that render.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <map>
@@ -26,6 +26,9 @@ struct PictureOptions {
   PngCurve curve() const { return srgb ? PngCurve::srgb : PngCurve::gamma22; }
 };
 
+/// Scene, settings: what decides the samples.
+void add_sample_options(CLI::App& command, PictureOptions& options);
+/// The same and the picture to write.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
 /// The command line stands above what the scene asks for, that above the built-in defaults. Checked; throws

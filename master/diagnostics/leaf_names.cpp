@@ -1,0 +1,41 @@
+#include "master/diagnostics/leaf_names.h"
+
+namespace rayfarm {
+namespace {
+
+const char* kind_of(const Solid& solid) {
+  struct Name {
+    const char* operator()(const Sphere&) const { return "sphere"; }
+    const char* operator()(const Cube&) const { return "cube"; }
+    const char* operator()(const Plane&) const { return "plane"; }
+    const char* operator()(const Cylinder&) const { return "cylinder"; }
+    const char* operator()(const Torus&) const { return "torus"; }
+  };
+  return std::visit(Name{}, solid);
+}
+
+/// Returns the node after the subtree.
+std::size_t add_names(const Scene& scene, std::size_t number, const std::string& above,
+                      std::vector<std::string>& names) {
+  const Node& node = scene.nodes[number];
+  if (const auto* solid = std::get_if<Solid>(&node.content)) {
+    const std::string own = node.name.empty() ? kind_of(*solid) : node.name;
+    names.push_back(above + own + " #" + std::to_string(names.size()));
+    return number + 1;
+  }
+  const std::string path = node.name.empty() ? above : above + node.name + "/";
+  const std::uint32_t children = std::get<Operation>(node.content).children;
+  std::size_t next = number + 1;
+  for (std::uint32_t i = 0; i < children; ++i) next = add_names(scene, next, path, names);
+  return next;
+}
+
+}  // namespace
+
+std::vector<std::string> leaf_names(const Scene& scene) {
+  std::vector<std::string> names;
+  add_names(scene, 0, "", names);
+  return names;
+}
+
+}  // namespace rayfarm
