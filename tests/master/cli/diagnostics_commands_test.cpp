@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "master/files/image_file.h"
 #include "tests/support/child_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -38,6 +39,43 @@ TEST(Stats, ArePrintedAsTables) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* word : {"primary", "12288", "misses", "plane #", "PHASE", "64x48"})
     EXPECT_NE(result.out.find(word), std::string::npos) << word;
+}
+
+TEST(Trace, TheSamplesMeanIsThePixelOfTheRenderedFile) {
+  const ScratchFolder folder;
+  small("render", {"-o", folder / "a.exr"});
+  const std::vector<float> rgb = read_picture(folder / "a.exr").rgb;
+  for (const auto& [x, y] : {std::pair{0, 0}, {32, 24}, {20, 40}}) {
+    const std::string pixel = std::to_string(x) + "," + std::to_string(y);
+    const json trace = json::parse(small("trace", {"--pixel", pixel, "--sample", "all", "--json"}).out);
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0;
+      for (const json& sample : trace["samples"]) sum += sample["color"][c].get<double>();
+      EXPECT_EQ(static_cast<float>(sum / 4), rgb[3 * static_cast<std::size_t>(y * 64 + x) + c]) << pixel;
+    }
+  }
+}
+
+TEST(Trace, PrintsATreeAndDrawsIt) {
+  const ScratchFolder folder;
+  const ProgramResult result = small("trace", {"--pixel", "32,24", "-o", folder / "a.svg"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("primary ray"), std::string::npos);
+  EXPECT_NE(content_of(folder / "a.svg").find("<svg "), std::string::npos);
+}
+
+TEST(Trace, WhatIsNotThereIsNamed) {
+  const auto refused = [](const Words& more, const std::string& message) {
+    const ProgramResult result = small("trace", more);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  };
+  refused({"--pixel", "64,0"}, "63,47");
+  refused({"--pixel", "7"}, "X,Y");
+  refused({"--pixel", "1,-1"}, "X,Y");
+  refused({"--pixel", "1,1", "--sample", "4"}, "from 0 to 3");
+  refused({"--pixel", "1,1", "--sample", "some"}, "centre");
+  refused({"--pixel", "1,1", "-o", "a.png"}, ".svg");
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ ProgramResult rayfarm(Words words) {
 }
 
 const Words all_commands{"render", "submit",   "jobs",    "job",   "watch",   "fetch",   "pause", "resume",
-                         "cancel", "priority", "workers", "drain", "undrain", "compare", "stats"};
+                         "cancel", "priority", "workers", "drain", "undrain", "compare", "stats", "trace"};
 
 TEST(Program, HelpsWithEachCommand) {
   const ProgramResult help = rayfarm({"--help"});

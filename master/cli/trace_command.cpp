@@ -1,0 +1,105 @@
+// rayfarm trace: the rays behind a pixel.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "master/cli/commands.h"
+#include "master/cli/picture_options.h"
+#include "master/cli/print_json.h"
+#include "master/cli/text.h"
+#include "master/diagnostics/leaf_names.h"
+#include "master/diagnostics/pixel_trace.h"
+#include "master/files/atomic_write.h"
+
+namespace rayfarm {
+namespace {
+
+struct TraceArguments {
+  PictureOptions picture;
+  std::string pixel, sample = "0", svg_file;
+  bool json = false;
+};
+
+/// The whole text as a number; none for anything else.
+std::optional<std::uint32_t> number_in(std::string_view text) {
+  std::uint32_t number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// "X,Y". Throws SettingsError.
+Pixel pixel_of(const std::string& text, const RenderSettings& s) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const auto x = number_in(std::string_view(text).substr(0, comma));
+  const auto y = comma < text.size() ? number_in(std::string_view(text).substr(comma + 1)) : std::nullopt;
+  if (!x || !y) throw SettingsError("--pixel wants X,Y, as in 320,240, is " + text);
+  if (*x >= s.width || *y >= s.height)
+    throw SettingsError("--pixel " + text + " lies outside the picture of " + std::to_string(s.width) + "x" +
+                        std::to_string(s.height) + "; the last pixel is " + std::to_string(s.width - 1) +
+                        "," + std::to_string(s.height - 1));
+  return {*x, *y};
+}
+
+std::vector<TracedSample> traced(const World& world, const RenderSettings& s, Pixel pixel,
+                                 const std::string& which) {
+  std::vector<TracedSample> samples;
+  if (which == "centre") {
+    samples.push_back(traced_centre(world, s, pixel));
+  } else if (which == "all") {
+    for (std::uint32_t i = 0; i < s.spp; ++i) samples.push_back(traced_sample(world, s, pixel, i));
+  } else {
+    const auto number = number_in(which);
+    if (!number || *number >= s.spp)
+      throw SettingsError("--sample must be a number from 0 to " + std::to_string(s.spp - 1) +
+                          " (see --spp), all or centre, is " + which);
+    samples.push_back(traced_sample(world, s, pixel, *number));
+  }
+  return samples;
+}
+
+void check_svg(const std::string& file) {
+  if (!file.empty() && !file.ends_with(".svg"))
+    throw FileError("the drawing is an SVG; let the name " + file + " end in .svg");
+}
+
+ExitCode trace(const TraceArguments& a) {
+  check_svg(a.svg_file);
+  PreparedScene scene = prepare(a.picture);
+  const Pixel pixel = pixel_of(a.pixel, scene.settings);
+  PixelTrace trace{pixel, {}, leaf_names(scene.scene)};
+  const World world(std::move(scene.scene));
+  for (TracedSample& sample : traced(world, scene.settings, pixel, a.sample))
+    trace.samples.push_back(with_story(world, std::move(sample)));
+
+  if (!a.svg_file.empty()) {
+    const std::string svg = svg_of(trace);
+    write_atomically(a.svg_file, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
+  }
+  if (a.json) {
+    print_json(to_json(trace));
+  } else {
+    for (std::string& name : trace.leaf_names) name = printable(name);
+    std::fputs(text_of(trace).c_str(), stdout);
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_trace_command(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<TraceArguments>();
+  CLI::App* command = app.add_subcommand("trace", "Show the rays behind a pixel");
+  add_sample_options(*command, arguments->picture);
+  command->add_option("--pixel", arguments->pixel, "X,Y from the upper left, from 0")->required();
+  command->add_option("--sample", arguments->sample, "Number of a sample (default 0), all or centre");
+  command->add_option("-o,--output", arguments->svg_file, "Draw the rays, .svg");
+  command->add_flag("--json", arguments->json, "Rays as JSON");
+  command->footer("Example: rayfarm trace scenes/circus.lua --pixel 320,240 --sample all -o rays.svg");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return trace(*arguments); }; });
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,192 @@
+#include "master/diagnostics/pixel_trace.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "common/render/render.h"
+#include "master/diagnostics/leaf_names.h"
+#include "tests/support/random_scene.h"
+
+namespace rayfarm {
+namespace {
+
+constexpr std::uint32_t side = 24;
+
+RenderSettings small_settings() {
+  RenderSettings s;
+  s.width = s.height = side, s.spp = 4;
+  return s;
+}
+
+/// Calls visit(world, settings, pixel, trees of its samples) for the pixels of some random scenes.
+template <class Visit>
+void for_each_traced_pixel(Visit&& visit) {
+  const RenderSettings s = small_settings();
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const World world(seed % 2 == 0 ? random_scene(seed) : random_snapped_scene(seed));
+    for (std::uint32_t y = 0; y < side; ++y)
+      for (std::uint32_t x = 0; x < side; ++x) {
+        std::vector<RayRecord> rays;
+        for (std::uint32_t i = 0; i < s.spp; ++i) rays.push_back(traced_sample(world, s, {x, y}, i).ray);
+        visit(world, s, Pixel{x, y}, rays);
+      }
+  }
+}
+
+template <class Visit>
+void for_each_ray(const RayRecord& ray, Visit&& visit) {
+  visit(ray);
+  for (const RayRecord& followed : ray.followed) for_each_ray(followed, visit);
+}
+
+TEST(RayTree, TheMeanOfThePixelsSamplesIsTheRenderedPixelBitForBit) {
+  const RenderSettings s = small_settings();
+  const World* rendered = nullptr;
+  Film film;
+  for_each_traced_pixel([&](const World& world, const RenderSettings&, Pixel p, const auto& rays) {
+    if (p == Pixel{0, 0}) {
+      rendered = &world;
+      film = Film({side, side});
+      const auto images = render_tile(world, s, 0, all_passes, [] { return false; });
+      for (const PassImage& image : *images) film.put(0, image);
+    }
+    ASSERT_EQ(rendered, &world);
+    PixelSum sum;
+    for (const RayRecord& ray : rays) sum.add(ray.color);
+    for (std::size_t c = 0; c < 3; ++c)
+      ASSERT_EQ(sum.mean(s.spp)[c], film.rgb()[3 * (p.y * side + p.x) + c]) << p.x << "," << p.y;
+  });
+}
+
+TEST(RayTree, HoldsTheRaysThatTheRenderCounts) {
+  RayCounters recorded;
+  for_each_traced_pixel([&](const World& world, const RenderSettings& s, Pixel p, const auto& rays) {
+    if (p == Pixel{0, 0}) recorded = {};
+    for (const RayRecord& root : rays)
+      for_each_ray(root, [&](const RayRecord& ray) {
+        recorded.primary += ray.kind == RayKind::primary;
+        recorded.reflected += ray.kind == RayKind::reflected;
+        recorded.refracted += ray.kind == RayKind::refracted;
+        (ray.kind == RayKind::primary ? recorded.primary_hits : recorded.secondary_hits) +=
+            ray.hit.has_value();
+        for (const LightAtHit& light : ray.lights)
+          recorded.shadow += light.fate == LightFate::reached || light.fate == LightFate::blocked;
+      });
+    if (p != Pixel{side - 1, side - 1}) return;
+    RayCounters counted;
+    const auto images = render_tile(world, s, 0, all_passes, [] { return false; });
+    for (const PassImage& image : *images) counted += image.counters;
+    counted.bad_samples = 0;
+    EXPECT_EQ(recorded, counted);
+  });
+}
+
+TEST(RayTree, ARaysColorIsItsLightsAndTheWeighedColorsOfWhatItFollows) {
+  for_each_traced_pixel([&](const World&, const RenderSettings&, Pixel, const auto& rays) {
+    for (const RayRecord& root : rays)
+      for_each_ray(root, [&](const RayRecord& ray) {
+        if (!ray.hit || ray.lights.empty()) return;
+        Vec3d sum;
+        for (const LightAtHit& light : ray.lights) sum += light.color;
+        for (const RayRecord& followed : ray.followed) {
+          ASSERT_EQ(followed.importance, ray.importance * followed.weight);
+          sum += followed.color * followed.weight;
+        }
+        ASSERT_EQ(sum, ray.color);
+      });
+  });
+}
+
+TEST(RayTree, WhatBlocksALightStandsBeforeIt) {
+  int blocked = 0;
+  for_each_traced_pixel([&](const World&, const RenderSettings&, Pixel, const auto& rays) {
+    for (const RayRecord& root : rays)
+      for_each_ray(root, [&](const RayRecord& ray) {
+        for (const LightAtHit& light : ray.lights) {
+          ASSERT_TRUE(light.fate == LightFate::blocked || !light.blocker);
+          if (!light.blocker) continue;
+          ++blocked;
+          const double to_light = length(light.at - ray.hit->point);
+          const double to_blocker = length(light.blocker->point - ray.hit->point);
+          ASSERT_LE(to_blocker, to_light * (1 + 1e-9));
+        }
+      });
+  });
+  EXPECT_GT(blocked, 100);
+}
+
+TEST(CsgStory, TheMaterialBeginsOrEndsWhereThePrimaryRayHits) {
+  int hits = 0;
+  for_each_traced_pixel([&](const World& world, const RenderSettings&, Pixel, const auto& rays) {
+    const RayRecord& ray = rays[0];
+    const CsgStory story = csg_story(world, {ray.origin, ray.direction});
+    if (!ray.hit) return;
+    ++hits;
+    ASSERT_FALSE(story.material.empty());
+    const Stretch& first = story.material[0];
+    ASSERT_NEAR(ray.hit->entering ? first.in : first.out, ray.hit->distance, 1e-12 * ray.hit->distance);
+    ASSERT_TRUE(std::any_of(story.leaves.begin(), story.leaves.end(),
+                            [&](const LeafStretches& leaf) { return leaf.leaf == ray.hit->leaf; }));
+  });
+  EXPECT_GT(hits, 100);
+}
+
+TEST(CsgStory, ABallWithAHole) {
+  Scene scene;
+  scene.nodes = {{Operation{CsgOp::subtract, 2}, {}, {}, {}, {}, {}},
+                 {Sphere{}, {}, {}, {}, {}, "ball"},
+                 {Sphere{}, scaling({0.5, 0.5, 0.5}), {}, {}, {}, "hole"}};
+  const CsgStory story = csg_story(World(scene), {{0, 0, -5}, {0, 0, 1}});
+  ASSERT_EQ(story.leaves.size(), 2u);
+  EXPECT_EQ(story.leaves[0].stretches, (std::vector<Stretch>{{4, 6}}));
+  EXPECT_EQ(story.leaves[1].stretches, (std::vector<Stretch>{{4.5, 5.5}}));
+  EXPECT_EQ(story.material, (std::vector<Stretch>{{4, 4.5}, {5.5, 6}}));
+}
+
+/// A mirror ball above a matte floor that it shadows.
+PixelTrace trace_of_a_ball() {
+  Scene scene;
+  Material mirror;
+  mirror.specular = 0.9, mirror.diffuse = mirror.ambient = 0.05;
+  scene.materials = {mirror};
+  scene.nodes = {{Operation{CsgOp::unite, 2}, {}, {}, {}, {}, {}},
+                 {Sphere{}, {}, 0u, {}, {}, "b<a>ll"},
+                 {Plane{}, Affine{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {0, -1, 0}}, {}, {}, {}, "floor"}};
+  scene.camera = PerspectiveCamera{{0, 1, -6}, {0, -0.2, 1}, {0, 1, 0}, 40};
+  scene.lights = {AmbientLight{}, PointLight{{0, 9, -1}}};
+  const World world(scene);
+  RenderSettings s = small_settings();
+  PixelTrace trace{{side / 2, side / 2}, {}, leaf_names(scene)};
+  for (std::uint32_t i = 0; i < s.spp; ++i)
+    trace.samples.push_back(with_story(world, traced_sample(world, s, trace.pixel, i)));
+  return trace;
+}
+
+TEST(PixelTrace, AsJsonHasTheSameTree) {
+  const PixelTrace trace = trace_of_a_ball();
+  const nlohmann::json json = to_json(trace);
+  ASSERT_EQ(json["samples"].size(), trace.samples.size());
+  for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+    const RayRecord& ray = trace.samples[i].traced.ray;
+    EXPECT_EQ(json["samples"][i]["ray"]["color"][0].get<double>(), ray.color.x);
+    EXPECT_EQ(json["samples"][i]["ray"]["hit"]["leaf"], ray.hit->leaf);
+    EXPECT_EQ(json["samples"][i]["ray"]["rays"].size(), ray.followed.size());
+    EXPECT_EQ(json["samples"][i]["csg"]["leaves"].size(), trace.samples[i].story.leaves.size());
+  }
+}
+
+TEST(PixelTrace, AsTextAndDrawingNamesWhatWasHit) {
+  const PixelTrace trace = trace_of_a_ball();
+  const std::string text = text_of(trace);
+  for (const char* words : {"pixel 12,12 sample 3", "  primary ray", "b<a>ll #0", "reflected ray",
+                            "ambient light 0", "in material: "})
+    EXPECT_NE(text.find(words), std::string::npos) << words << text;
+  const std::string svg = svg_of(trace);
+  for (const char* words : {"<svg ", "b&lt;a>ll #0", "light 1", "camera", "</svg>"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+}
+
+}  // namespace
+}  // namespace rayfarm
