@@ -156,17 +156,18 @@ ApiResponse show_style(const Call&) { return {200, "text/css; charset=utf-8", st
 struct Route {
   std::string_view method, path;
   ApiResponse (*handle)(const Call&);
+  bool takes_long = false;
 };
 constexpr Route routes[]{
     {"GET", "/api/v1/jobs", list_jobs},
-    {"POST", "/api/v1/jobs", submit_job},
+    {"POST", "/api/v1/jobs", submit_job, true},
     {"GET", "/api/v1/jobs/{id}", show_job},
     {"POST", "/api/v1/jobs/{id}/pause", pause_job},
     {"POST", "/api/v1/jobs/{id}/resume", resume_job},
     {"POST", "/api/v1/jobs/{id}/cancel", cancel_job},
     {"POST", "/api/v1/jobs/{id}/priority", prioritise_job},
-    {"GET", "/api/v1/jobs/{id}/film", show_film},
-    {"GET", "/api/v1/jobs/{id}/picture.png", show_picture},
+    {"GET", "/api/v1/jobs/{id}/film", show_film, true},
+    {"GET", "/api/v1/jobs/{id}/picture.png", show_picture, true},
     {"GET", "/api/v1/workers", list_workers},
     {"POST", "/api/v1/workers/{name}/drain", drain_worker},
     {"POST", "/api/v1/workers/{name}/undrain", undrain_worker},
@@ -213,6 +214,17 @@ std::uint64_t number_in(const RequestTarget& target, const std::string& name) {
 }
 
 }  // namespace
+
+bool takes_long(const ApiRequest& request) {
+  try {
+    const RequestTarget target = parse_target(request.target);
+    return std::ranges::any_of(routes, [&](const Route& route) {
+      return route.takes_long && route.method == request.method && arguments_of(route.path, target.path);
+    });
+  } catch (const std::invalid_argument&) {
+    return false;  // answer() will say what is wrong
+  }
+}
 
 std::vector<ApiRoute> api_routes() {
   std::vector<ApiRoute> all;

@@ -27,8 +27,10 @@ struct NewsWait {
 };
 std::optional<NewsWait> news_wait(const ApiRequest& request);
 
-/// Never throws for what a request can bring: errors are answers. May take long (pictures): not for the I/O
-/// thread.
+/// Pictures are compressed, scenes are checked: seconds, which nobody else should wait for.
+bool takes_long(const ApiRequest& request);
+
+/// Never throws for what a request can bring: errors are answers. Waits for the farm: not for the I/O thread.
 ApiResponse answer(const ApiRequest& request, const FarmDoor& farm);
 
 }  // namespace rayfarm

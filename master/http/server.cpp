@@ -143,16 +143,18 @@ struct HttpServer::Parts {
   asio::awaitable<ApiResponse> respond(const ApiRequest& request);
   asio::awaitable<void> await_news(NewsWait wait);
   asio::awaitable<ApiResponse> answer_in_pool(const ApiRequest& request);
-  asio::awaitable<std::uint64_t> revision_in_pool();
+  asio::awaitable<std::uint64_t> current_revision();
 
   const HttpSettings settings;
   FarmDoor farm;
   ListenAddress listening;
-  asio::io_context io{1};
-  tcp::acceptor acceptor;
-  asio::thread_pool pool{2};  // pictures are compressed and scenes are checked here
   int connections = 0;
   std::uint64_t body_bytes = 0;  // that peers may send just now
+  // What waits in these owns sessions, which use the members above.
+  asio::io_context io{1};
+  tcp::acceptor acceptor;
+  asio::thread_pool long_work{2};   // pictures are compressed and scenes are checked here
+  asio::thread_pool short_work{1};  // all else, so that no cancel waits behind a picture
   std::jthread thread;
 };
 
@@ -239,6 +241,7 @@ asio::awaitable<bool> HttpServer::Parts::reply(beast::tcp_stream& stream, Respon
 asio::awaitable<ApiResponse> HttpServer::Parts::respond(const ApiRequest& request) {
   const std::optional<NewsWait> wait = news_wait(request);
   if (wait) co_await await_news(*wait);
+  asio::thread_pool& pool = takes_long(request) ? long_work : short_work;
   asio::awaitable<ApiResponse> answering = answer_in_pool(request);
   co_return co_await asio::co_spawn(pool, std::move(answering), asio::use_awaitable);
 }
@@ -246,8 +249,9 @@ asio::awaitable<ApiResponse> HttpServer::Parts::respond(const ApiRequest& reques
 asio::awaitable<void> HttpServer::Parts::await_news(NewsWait wait) {
   const auto end = std::chrono::steady_clock::now() + wait.longest;
   while (std::chrono::steady_clock::now() < end) {
-    asio::awaitable<std::uint64_t> asking = revision_in_pool();
-    const std::uint64_t revision = co_await asio::co_spawn(pool, std::move(asking), asio::use_awaitable);
+    asio::awaitable<std::uint64_t> asking = current_revision();
+    const std::uint64_t revision =
+        co_await asio::co_spawn(short_work, std::move(asking), asio::use_awaitable);
     if (revision != wait.after) co_return;
     asio::steady_timer pause(io, news_glance);
     co_await pause.async_wait(asio::use_awaitable);
@@ -258,7 +262,7 @@ asio::awaitable<ApiResponse> HttpServer::Parts::answer_in_pool(const ApiRequest&
   co_return answer(request, farm);
 }
 
-asio::awaitable<std::uint64_t> HttpServer::Parts::revision_in_pool() {
+asio::awaitable<std::uint64_t> HttpServer::Parts::current_revision() {
   co_return farm.ask([](Farm& f, FarmTime) { return f.revision(); });
 }
 
@@ -269,10 +273,13 @@ HttpServer::HttpServer(const HttpSettings& settings, OnFarm on_farm)
 }
 
 HttpServer::~HttpServer() {
+  parts_->long_work.stop();  // what has not begun is dropped
+  parts_->short_work.stop();
   parts_->farm.close();
   parts_->io.stop();
   parts_->thread.join();
-  parts_->pool.join();
+  parts_->long_work.join();
+  parts_->short_work.join();
 }
 
 std::string HttpServer::url() const {

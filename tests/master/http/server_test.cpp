@@ -5,6 +5,7 @@
 
 #include <list>
 #include <nlohmann/json.hpp>
+#include <semaphore>
 #include <thread>
 
 #include "master/http/client.h"
@@ -23,15 +24,48 @@ OnFarm door_to(FarmThread& farm) {
   return [&farm](FarmThread::Task task) { farm.post(std::move(task)); };
 }
 
+/// A port where nobody speaks HTTP: what its one peer gets is up to the test.
+class RawListener {
+ public:
+  RawListener() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ::bind(listener_, reinterpret_cast<sockaddr*>(&address), size);
+    ::listen(listener_, 1);
+    ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
+    url_ = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  }
+  ~RawListener() {
+    ::close(listener_);
+    if (accepted()) ::close(peer_);
+  }
+  RawListener(const RawListener&) = delete;
+  RawListener& operator=(const RawListener&) = delete;
+
+  const std::string& url() const { return url_; }
+  /// Takes the peer in if it is there.
+  bool accept() { return (peer_ = ::accept(listener_, nullptr, nullptr)) >= 0; }
+  bool accepted() const { return peer_ >= 0; }
+  void send(const std::string& bytes) { ::send(peer_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
+
+ private:
+  int listener_, peer_ = -1;
+  std::string url_;
+};
+
+std::uint16_t port_of(const HttpServer& server) {
+  return static_cast<std::uint16_t>(std::stoi(server.url().substr(server.url().rfind(':') + 1)));
+}
+
 class Server : public testing::Test {
  protected:
   HttpReply get(const std::string& target) { return send({"GET", server.url(), target, ""}); }
   HttpReply post(const std::string& target, const json& body) {
     return send({"POST", server.url(), target, body.dump()});
   }
-  std::uint16_t port() const {
-    return static_cast<std::uint16_t>(std::stoi(server.url().substr(server.url().rfind(':') + 1)));
-  }
+  std::uint16_t port() const { return port_of(server); }
   /// The whole answer to bytes sent by hand; "Connection: close" is up to the sender.
   std::string answer_to(const std::string& bytes) {
     RawPeer peer(port());
@@ -130,12 +164,12 @@ TEST_F(Server, SaysThatABodyIsTooLargeAlsoWhenItComesAnyway) {
 TEST(HttpServer, LargeBodiesShareABoundedMemory) {
   FarmThread farm;
   const HttpServer server({.listen = "127.0.0.1:0"}, door_to(farm));
-  const auto port = static_cast<std::uint16_t>(std::stoi(server.url().substr(server.url().rfind(':') + 1)));
   std::list<RawPeer> peers;
   std::vector<pollfd> sockets;
   for (int i = 0; i < 5; ++i) {
-    peers.emplace_back(port).send("POST /api/v1/jobs HTTP/1.1\r\n" + host +
-                                  "Content-Type: application/json\r\nContent-Length: 67108864\r\n\r\n");
+    peers.emplace_back(port_of(server))
+        .send("POST /api/v1/jobs HTTP/1.1\r\n" + host +
+              "Content-Type: application/json\r\nContent-Length: 67108864\r\n\r\n");
     sockets.push_back({peers.back().descriptor(), POLLIN, 0});
   }
   ASSERT_EQ(::poll(sockets.data(), sockets.size(), -1), 1);
@@ -180,6 +214,25 @@ TEST_F(Server, MoreConnectionsThanItHasRoomForAreClosed) {
     }
 }
 
+// What a film asks of the farm is kept here, so that two films keep the threads for long work busy.
+TEST(HttpServer, CancelsAJobWhileFilmsTakeLong) {
+  FarmThread farm;
+  farm.run([](Farm& f, FarmTime now) { f.submit(small_job(), now); });
+  std::counting_semaphore<2> kept(0);
+  std::vector<FarmThread::Task> tasks;
+  const HttpServer server({.listen = "127.0.0.1:0"}, [&](FarmThread::Task task) {
+    if (tasks.size() == 2) return farm.post(std::move(task));
+    tasks.push_back(std::move(task));
+    kept.release();
+  });
+  std::list<RawPeer> peers;
+  for (int i = 0; i < 2; ++i) {
+    peers.emplace_back(port_of(server)).send("GET /api/v1/jobs/1/film HTTP/1.1\r\n" + host + "\r\n");
+    kept.acquire();
+  }
+  EXPECT_EQ(send({"POST", server.url(), "/api/v1/jobs/1/cancel", "{}"}).status, 200u);
+}
+
 // The server and its client.
 // -----------------------------------------------------------------------------------
 
@@ -191,7 +244,7 @@ TEST(HttpServer, EndsWhileAPeerWaitsForNewsAndTheFarmIsBusy) {
   busy.get_future().wait();
   const std::string url = server->url();
   std::jthread waiting([&] { EXPECT_ANY_THROW(send({"GET", url, "/api/v1/jobs?wait=30", ""})); });
-  RawPeer another(static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1))));
+  RawPeer another(port_of(*server));
   another.send("GET /api/v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n");
   server.reset();
   free.set_value();
