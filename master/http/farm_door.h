@@ -25,23 +25,26 @@ class FarmDoor {
 
   /// Runs question(farm, now) on the farm's thread and waits for its answer. The question must own what it
   /// uses: the wait can end first. Throws what the question throws, and FarmUnavailable after close() or 10
-  /// s.
+  /// s; the question is then never asked, so it may be tried again.
   template <class Question>
   std::invoke_result_t<Question&, Farm&, FarmTime> ask(Question question) const {
     using Answer = std::invoke_result_t<Question&, Farm&, FarmTime>;
     auto promise = std::make_shared<std::promise<Answer>>();
     std::future<Answer> answer = promise->get_future();
-    on_farm_(
-        [promise = std::move(promise), question = std::move(question)](Farm& farm, FarmTime now) mutable {
-          try {
-            promise->set_value(question(farm, now));
-          } catch (...) {
-            promise->set_exception(std::current_exception());
-          }
-        });
+    // Set by whoever is first: the farm to answer, or the asker to leave.
+    auto decided = std::make_shared<std::atomic_flag>();
+    on_farm_([promise = std::move(promise), decided, question = std::move(question)](Farm& farm,
+                                                                                     FarmTime now) mutable {
+      if (decided->test_and_set()) return;
+      try {
+        promise->set_value(question(farm, now));
+      } catch (...) {
+        promise->set_exception(std::current_exception());
+      }
+    });
     const auto deadline = std::chrono::steady_clock::now() + patience;
     while (answer.wait_for(glance) != std::future_status::ready)
-      if (closed_ || std::chrono::steady_clock::now() > deadline)
+      if ((closed_ || std::chrono::steady_clock::now() > deadline) && !decided->test_and_set())
         throw FarmUnavailable("the master is stopping or very busy; try again");
     try {
       return answer.get();

@@ -140,3 +140,13 @@ TEST(NewsWait, IsAskedForByJobsAloneAndIsBounded) {
 
 }  // namespace
 }  // namespace rayfarm
+TEST(FarmDoor, WhatItsAskerGaveUpIsNotDoneLater) {
+  std::vector<std::function<void(Farm&, FarmTime)>> kept;
+  FarmDoor stuck([&](auto task) { kept.push_back(std::move(task)); });
+  stuck.close();
+  EXPECT_THROW(stuck.ask([](Farm& f, FarmTime now) { return f.submit(small_job(), now); }), FarmUnavailable);
+  Farm farm;
+  kept.at(0)(farm, FarmTime{});
+  EXPECT_TRUE(farm.jobs(FarmTime{}).empty());
+}
+
