@@ -31,6 +31,25 @@ TilePasses passes_there(const Film& film, std::uint32_t begin, std::uint32_t end
   return all;
 }
 
+bool is_there(const Film& film, std::uint32_t x, std::uint32_t y) {
+  const std::uint32_t across = (film.size().width + tile_side - 1) / tile_side;
+  int pass = 0;
+  while (x % pass_stride[pass] != 0 || y % pass_stride[pass] != 0) ++pass;
+  return film.passes_of(y / tile_side * across + x / tile_side) >> pass & 1;
+}
+
+/// One pixel of film.filled(): of those whose squares cover it the finest that is there; else black.
+const float* filled_pixel(const Film& film, std::uint32_t x, std::uint32_t y) {
+  const auto value = [&](std::uint32_t at_x, std::uint32_t at_y) {
+    return &film.rgb()[3 * (std::size_t{at_y} * film.size().width + at_x)];
+  };
+  for (int pass = pass_count - 1; pass >= 0; --pass) {
+    const std::uint32_t grid_x = x - x % pass_stride[pass], grid_y = y - y % pass_stride[pass];
+    if (is_there(film, grid_x, grid_y)) return value(grid_x, grid_y);
+  }
+  return value(x, y);
+}
+
 }  // namespace
 
 std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id) {
@@ -60,11 +79,10 @@ Picture preview(const Film& film) {
   const std::uint32_t step =
       (std::max(whole.width, whole.height) + longest_preview_side - 1) / longest_preview_side;
   if (step <= 1) return {whole, film.filled(), {}};
-  const std::vector<float> filled = film.filled();
   Picture picture{{(whole.width + step - 1) / step, (whole.height + step - 1) / step}, {}, {}};
   for (std::uint32_t y = 0; y < whole.height; y += step)
     for (std::uint32_t x = 0; x < whole.width; x += step) {
-      const auto pixel = filled.begin() + 3 * (std::ptrdiff_t{y} * whole.width + x);
+      const float* pixel = filled_pixel(film, x, y);
       picture.rgb.insert(picture.rgb.end(), pixel, pixel + 3);
     }
   return picture;
