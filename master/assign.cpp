@@ -1,6 +1,7 @@
 // Who gets what: giving work out and taking it back.
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "master/farm_state.h"
 
@@ -33,8 +34,8 @@ Job* Farm::State::next_job_for(const Worker& worker) {
 
 bool Farm::State::give_one(Worker& worker, FarmTime now) {
   Job* job = next_job_for(worker);
-  while (job != nullptr && !job->canvas && !start(*job, now)) job = next_job_for(worker);
   if (job == nullptr || !has_room_for(worker, job->id)) return false;
+  if (!job->canvas && !start(*job, now)) return true;  // it failed; ask for the next
 
   Schedule& schedule = job->canvas->schedule;
   const std::optional<Work> work =
@@ -110,6 +111,7 @@ void Farm::State::end(Job& job, JobState state, FarmTime now) {
   job.state = state;
   job.ended = now;
   job.spec.scene_bytes.reset();
+  if (state != JobState::done) job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
   ++revision;
   update_queue(job);
   for (auto& [id, worker] : workers) forget(worker, job.id);

@@ -13,6 +13,14 @@ constexpr std::array<std::string_view, 6> job_state_names{"waiting", "running", 
                                                           "done",    "cancelled", "failed"};
 constexpr std::array<std::string_view, 3> worker_state_names{"idle", "busy", "drained"};
 
+/// The job that has the key of this submission already. Throws KeyTaken if it is not what is wanted.
+JobId same_job(const Job& job, const JobSpec& wanted) {
+  if (job.spec.scene_hash != wanted.scene_hash || job.spec.settings != wanted.settings)
+    throw KeyTaken("the key " + wanted.key + " belongs to " + title_of(job) +
+                   ", which has another scene or other settings; choose another key");
+  return job.id;
+}
+
 }  // namespace
 
 std::string_view name_of(JobState state) { return job_state_names.at(static_cast<std::size_t>(state)); }
@@ -88,8 +96,9 @@ JobId Farm::submit(JobSpec spec, FarmTime now) {
   check(spec.settings);
   if (const auto known = state_->job_by_key.find(spec.key);
       !spec.key.empty() && known != state_->job_by_key.end())
-    return known->second;
+    return same_job(state_->jobs.at(known->second), spec);
 
+  state_->take_in_scene(spec);
   const JobId id{++state_->last_job};
   if (!spec.key.empty()) state_->job_by_key[spec.key] = id;
   Job& job = state_->jobs[id];

@@ -10,9 +10,10 @@
 // first; of its tiles those given back, then the one nearest the centre. A worker holds a lease for each
 // thread and two more, and beyond that as many as keep it busy for 250 ms by its learned speed.
 //
-// Memory: a job costs what its scene costs until its first assignment, then 12 bytes a pixel for the film
-// (3.7 MB for 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. An ended job drops its scene and keeps
-// its film, which is fetched later, as long as FarmLimits say.
+// Memory: a job costs its scene, which jobs of the same hash share; from its first assignment also 12 bytes a
+// pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. An ended job drops
+// its scene and keeps its film, which is fetched later, as long as FarmLimits say. Of all workers that there
+// were, the first 10,000 names are kept, to say whose pixels they are.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -52,13 +53,16 @@ struct JobSpec {
   RenderSettings settings;
   int priority = 50;  // 0..99, higher first; equals in order of submission
   bool hold = false;  // starts paused
-  std::string key;    // submit --id: the same key gives the same job again; empty: none
+  std::string key;    // submit --id: the same key gives the same job again until that fails; empty: none
 };
 
 /// What of ended jobs is kept; those that ended first go first. A job that loses its film loses its key, too.
+/// And how much may be unfinished: beyond that, nothing is taken in.
 struct FarmLimits {
-  std::uint64_t film_bytes = std::uint64_t{2} << 30;  // all films; the last one that ended stays, however big
+  std::uint64_t film_bytes = std::uint64_t{2} << 30;  // all films; the newest stays, however big
   std::size_t jobs = 1000;                            // at least 1; the others are as if they had never been
+  std::size_t unfinished_jobs = 10'000;
+  std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished jobs, each scene once
 };
 
 /// A job as people see it.
@@ -102,6 +106,11 @@ struct WorkerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The key of a submission belongs to a job with another scene or other settings; the message names it.
+struct KeyTaken : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class Farm {
  public:
   /// Must not call the farm.
@@ -124,7 +133,7 @@ class Farm {
   /// stopping and gets nothing more; what it still holds it may finish.
   void receive(WorkerId worker, GiveBack given, FarmTime now);
 
-  /// Throws SettingsError for settings that cannot be rendered.
+  /// Throws SettingsError for settings that cannot be rendered and when too much is unfinished; KeyTaken.
   JobId submit(JobSpec spec, FarmTime now);
   // These answer false when there is no such job, or it has ended. Pausing and cancelling revoke at once.
   bool pause(JobId job, FarmTime now);

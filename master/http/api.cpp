@@ -258,6 +258,8 @@ ApiResponse answer(const ApiRequest& request, const FarmDoor& farm) {
     return error_response(503, error.what());
   } catch (const std::invalid_argument& error) {
     return error_response(400, error.what());
+  } catch (const KeyTaken& error) {
+    return error_response(409, error.what());
   } catch (const SettingsError& error) {
     return error_response(422, error.what());
   } catch (const SceneError& error) {

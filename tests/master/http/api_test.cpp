@@ -117,6 +117,20 @@ TEST_F(Api, BadScenesAndSettingsAre422AndLeaveNoJob) {
   EXPECT_TRUE(get_json("/api/v1/jobs")["jobs"].empty());
 }
 
+TEST_F(Api, AKeyIsForOneSceneWithOneSettingUntilItsJobHasFailed) {
+  JobSpec spec = small_job();
+  spec.key = "homework";
+  const std::string id = submit(spec);
+  EXPECT_EQ(submit(spec), id);
+  JobSpec other = spec;
+  other.settings.seed = 7;
+  const ApiResponse refused = post("/api/v1/jobs", to_json(other));
+  EXPECT_EQ(refused.status, 409u);
+  EXPECT_NE(refused.body.find("homework belongs to job " + id), std::string::npos) << refused.body;
+  post("/api/v1/jobs/" + id + "/cancel");
+  EXPECT_NE(submit(other), id);
+}
+
 TEST_F(Api, ErrorsAreJsonWithAMessage) { EXPECT_NE(get_json("/api/v1/jobs/7")["error"], ""); }
 
 TEST(FarmDoor, AnAskerIsNotKeptWhenTheFarmHasStopped) {
