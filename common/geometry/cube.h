@@ -8,14 +8,20 @@
 namespace rayfarm {
 
 /// Where the line is between the planes `low` and `high` of one axis. A direction within its own error of
-/// parallel never crosses them: the line is between them, or it is not.
+/// parallel never crosses them: the line is between them, or it is not; within its error of one of them it counts
+/// as moved aside.
 template <class T>
-Interval<T> slab_interval(T o, T d, T low, T high, T o_error, T d_error) {
+Interval<T> slab_interval(const LocalRay<T>& r, int axis, T low, T high) {
   using std::fabs;
-  if (none(fabs(d) > d_error)) return o > low && o < high ? Interval<T>{} : empty_interval<T>();
+  const T o = r.origin[axis], d = r.direction[axis];
+  if (none(fabs(d) > r.direction_error)) {
+    const T aside = select(r.aside[axis] > T(0), r.origin_error, -r.origin_error);
+    return o + aside > low && o + aside < high ? Interval<T>{} : empty_interval<T>();
+  }
   const T a = (low - o) / d, b = (high - o) / d;
   const auto error = [&](T t) {
-    return (o_error + fabs(t) * d_error) / fabs(d) + T(3 * unit_roundoff) * fabs(t);
+    return (r.origin_error + fabs(t) * r.direction_error) / (fabs(d) - r.direction_error) +
+           T(3 * unit_roundoff) * fabs(t);
   };
   const T first = select(d > T(0), a, b), last = select(d > T(0), b, a);
   // An open slab (an uncapped cylinder) has no planes at infinity.
@@ -28,9 +34,7 @@ Interval<T> slab_interval(T o, T d, T low, T high, T o_error, T d_error) {
 template <class T>
 Interval<T> cube_interval(const LocalRay<T>& r) {
   Interval<T> inside;
-  for (int axis = 0; axis < 3; ++axis)
-    inside = intersection(inside, slab_interval(r.origin[axis], r.direction[axis], T(0), T(1), r.origin_error,
-                                                r.direction_error));
+  for (int axis = 0; axis < 3; ++axis) inside = intersection(inside, slab_interval(r, axis, T(0), T(1)));
   return inside;
 }
 

@@ -19,7 +19,10 @@ template <class T>
 Interval<T> tube_interval(const LocalRay<T>& r) {
   const LocalRay<T> flat = across_axis(r);
   if (none(max_abs(flat.direction) > r.direction_error)) {
-    const T oo = dot(flat.origin, flat.origin);
+    // Within the error of the tube, the line counts as moved aside.
+    const T outward = r.origin.x * r.aside.x + r.origin.y * r.aside.y;
+    const T error = T(3) * r.origin_error + T(4 * unit_roundoff);
+    const T oo = dot(flat.origin, flat.origin) + select(outward > T(0), error, -error);
     return oo < T(1) ? Interval<T>{} : empty_interval<T>();
   }
   return sphere_interval(flat);
@@ -27,8 +30,7 @@ Interval<T> tube_interval(const LocalRay<T>& r) {
 
 template <class T>
 Interval<T> cylinder_interval(const Cylinder& c, const LocalRay<T>& r) {
-  return intersection(tube_interval(r), slab_interval(r.origin.z, r.direction.z, T(c.z_min), T(c.z_max),
-                                                      r.origin_error, r.direction_error));
+  return intersection(tube_interval(r), slab_interval(r, 2, T(c.z_min), T(c.z_max)));
 }
 
 /// For a ray that starts on the cylinder and goes inward. On the side the tube's far root is known; on a cap
@@ -37,8 +39,7 @@ inline Bounded<double> cylinder_exit_from_surface(const Cylinder& c, const Local
   const LocalRay<double> flat = across_axis(r);
   Interval<double> tube = tube_interval(r);
   if (!on_cap && max_abs(flat.direction) > r.direction_error) tube.leave = sphere_exit_from_surface(flat);
-  const Interval<double> slab =
-      slab_interval(r.origin.z, r.direction.z, c.z_min, c.z_max, r.origin_error, r.direction_error);
+  const Interval<double> slab = slab_interval(r, 2, c.z_min, c.z_max);
   return intersection(tube, slab).leave;
 }
 
@@ -51,8 +52,7 @@ inline bool is_on_cap(const Cylinder& c, const Vec3d& p) {
 
 inline SurfacePoint cylinder_surface(const Cylinder& c, const LocalRay<double>& r, double t, bool entering) {
   const Interval<double> tube = tube_interval(r);
-  const Interval<double> slab =
-      slab_interval(r.origin.z, r.direction.z, c.z_min, c.z_max, r.origin_error, r.direction_error);
+  const Interval<double> slab = slab_interval(r, 2, c.z_min, c.z_max);
   const bool on_cap = entering ? slab.enter.t > tube.enter.t : slab.leave.t < tube.leave.t;
   Vec3d p = r.origin + r.direction * t;
   if (on_cap) {

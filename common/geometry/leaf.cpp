@@ -17,12 +17,17 @@ glm::dmat3 adjugate(const glm::dmat3& m) {
   return glm::transpose(glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])));
 }
 
-template <class... Cases>
-struct Overload : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overload(Cases...) -> Overload<Cases...>;
+/// One entry, a power of two: an axis turned by right angles or scaled without rounding.
+bool is_exact(const glm::dvec3& column) {
+  int entries = 0;
+  bool powers = true;
+  for (int row = 0; row < 3; ++row) {
+    int exponent = 0;
+    entries += column[row] != 0;
+    powers = powers && (column[row] == 0 || std::fabs(std::frexp(column[row], &exponent)) == 0.5);
+  }
+  return entries == 1 && powers;
+}
 
 }  // namespace
 
@@ -30,14 +35,15 @@ BoundedAffine bounded(const Affine& map) {
   // A few rotations and scales multiplied in the script: each rounds relative to its row or column.
   constexpr double relative = 8 * unit_roundoff;
   BoundedAffine b{map};
-  for (int column = 0; column < 3; ++column)
+  for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 3; ++row) {
       const glm::dvec3 c = glm::abs(map.linear[column]);
       const double column_size = greatest(c.x, greatest(c.y, c.z));
       b.linear_error[column][row] = relative * least(column_size, max_abs(row_of(map.linear, row)));
     }
+    if (is_exact(map.linear[column])) b.linear_error[column] = glm::dvec3(0.0);
+  }
   b.offset_error = glm::dvec3(relative * max_abs(vec(map.offset)));
-  if (map == Affine{}) b.linear_error = glm::dmat3(0.0), b.offset_error = glm::dvec3(0.0);
   return b;
 }
 
@@ -71,9 +77,13 @@ Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local) {
   Leaf leaf{};
   leaf.solid = solid;
   leaf.offset = vec(local.map.offset);
+  // A line in a face of two solids must be inside one of them: both see it moved to the same side. The direction
+  // is one that no face is likely to hold.
+  const Vec3d world_aside{0.8017, 0.5345, 0.2673};
   constexpr double rounding = gamma_bound(4);
   for (int i = 0; i < 3; ++i) {
     leaf.row[i] = row_of(local.map.linear, i);
+    leaf.aside[i] = dot(leaf.row[i], world_aside);
     const double stretch = row_sum(local.map.linear, i);
     leaf.stretch = greatest(leaf.stretch, stretch);
     leaf.error_per_size = greatest(leaf.error_per_size, row_sum(local.linear_error, i) + rounding * stretch);
@@ -171,7 +181,7 @@ Box moved(const Box& box, const BoundedAffine& by) {
 }
 
 Crossings crossings(const Leaf& leaf, const LocalRay<double>& ray) {
-  if (is_convex(leaf)) return ahead(convex_interval(leaf, ray));
+  if (const auto interval = convex_interval(leaf, ray)) return ahead(*interval);
   return torus_crossings(std::get<Torus>(leaf.solid), ray);
 }
 

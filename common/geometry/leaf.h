@@ -1,5 +1,7 @@
 // A leaf of the CSG tree made ready for rays: its solid, its transforms and how far off they may be.
 #pragma once
+#include <optional>
+
 #include "common/geometry/bounds.h"
 #include "common/geometry/crossing.h"
 #include "common/geometry/cube.h"
@@ -10,6 +12,7 @@
 #include "common/geometry/sphere.h"
 #include "common/geometry/surface_point.h"
 #include "common/math/affine.h"
+#include "common/math/overload.h"
 
 namespace rayfarm {
 
@@ -32,6 +35,7 @@ struct Leaf {
   double error_per_size;  // bound on |local error| = error_per_size * |world| + error_constant, largest
                           // components
   double error_constant;
+  Vec3d aside;     // where a point goes that is moved a little in world space, the same way for all leaves
   double stretch;  // largest |local| for a world vector with components up to 1
   Solid solid;
 };
@@ -50,16 +54,21 @@ inline LocalRay<double> to_local(const Leaf& leaf, const RayQuery& q) {
            dot(leaf.row[2], o) + leaf.offset.z},
           {dot(leaf.row[0], d), dot(leaf.row[1], d), dot(leaf.row[2], d)},
           leaf.error_per_size * q.origin_size + leaf.error_constant + leaf.stretch * q.ray.origin_error,
-          leaf.error_per_size * q.direction_size};
+          leaf.error_per_size * q.direction_size,
+          leaf.aside};
 }
 
-/// Convex solids have an interval; the others (tori) only a list of crossings.
-inline bool is_convex(const Leaf& leaf) { return !std::holds_alternative<Torus>(leaf.solid); }
-inline Interval<double> convex_interval(const Leaf& leaf, const LocalRay<double>& ray) {
-  if (std::holds_alternative<Sphere>(leaf.solid)) return sphere_interval(ray);
-  if (std::holds_alternative<Cube>(leaf.solid)) return cube_interval(ray);
-  if (std::holds_alternative<Plane>(leaf.solid)) return plane_interval(ray);
-  return cylinder_interval(std::get<Cylinder>(leaf.solid), ray);
+/// Where the line is inside the leaf; none for a solid that is not convex (a torus): it has only a list of crossings.
+inline std::optional<Interval<double>> convex_interval(const Leaf& leaf, const LocalRay<double>& ray) {
+  using Convex = std::optional<Interval<double>>;
+  return std::visit(Overload{
+                        [&](const Sphere&) { return Convex(sphere_interval(ray)); },
+                        [&](const Cube&) { return Convex(cube_interval(ray)); },
+                        [&](const Plane&) { return Convex(plane_interval(ray)); },
+                        [&](const Cylinder& c) { return Convex(cylinder_interval(c, ray)); },
+                        [&](const Torus&) { return Convex(); },
+                    },
+                    leaf.solid);
 }
 
 /// The leaf's crossings ahead of the ray.

@@ -7,7 +7,7 @@ namespace rayfarm {
 
 template <class T>
 Interval<T> plane_interval(const LocalRay<T>& r) {
-  return slab_interval(r.origin.z, r.direction.z, T(-infinity), T(0), r.origin_error, r.direction_error);
+  return slab_interval(r, 2, T(-infinity), T(0));
 }
 
 inline SurfacePoint plane_surface(const LocalRay<double>& r, double t) {

@@ -28,7 +28,7 @@ struct Ray {
 struct RayQuery {
   explicit RayQuery(const Ray& r)
       : ray(r),
-        inverse{1 / r.direction.x, 1 / r.direction.y, 1 / r.direction.z},
+        inverse{1 / (r.direction.x + 0.0), 1 / (r.direction.y + 0.0), 1 / (r.direction.z + 0.0)},  // -0 as +0
         origin_size(max_abs(r.origin)),
         direction_size(max_abs(r.direction)) {}
 
@@ -43,6 +43,7 @@ template <class T>
 struct LocalRay {
   Vec3<T> origin{}, direction{};
   T origin_error{}, direction_error{};
+  Vec3<T> aside{};  // see Leaf::aside
 };
 
 }  // namespace rayfarm

@@ -17,6 +17,7 @@ struct ClosestApproach {
   T t{}, t_error{};
   Vec3<T> p{};
   T p_error{};     // of each coordinate, across the line
+  T stretch{};     // bound on the relative error of lengths along the line, from the direction's
   T inverse_dd{};  // 1 / dot(direction, direction)
 };
 
@@ -37,7 +38,7 @@ ClosestApproach<T> closest_approach(const LocalRay<T>& ray) {
   const T moved =
       (ray.origin_error + T(6 * unit_roundoff) * size) * d_sum + T(9) * ray.direction_error * size;
   const T t_error = moved * inverse_dd + T(6 * unit_roundoff) * fabs(t);
-  return {t, t_error, p, p_error, inverse_dd};
+  return {t, t_error, p, p_error, ray.direction_error * d_sum * inverse_dd, inverse_dd};
 }
 
 /// Where the line is inside the unit sphere, given its closest approach: sqrt(disc / dd) to both sides.
@@ -51,7 +52,8 @@ Interval<T> interval_about(const ClosestApproach<T>& c, T disc, T disc_error) {
   const T root = sqrt(select(tangent, T(2) * disc_error, disc) * c.inverse_dd);
   const T half = select(tangent, T(0), root);
   const T half_error = select(tangent, root, disc_error * c.inverse_dd / root);
-  const T error = c.t_error + half_error + T(4 * unit_roundoff) * (fabs(c.t) + half);
+  const T error =
+      c.t_error + half_error + T(4 * unit_roundoff) * fabs(c.t) + (c.stretch + T(4 * unit_roundoff)) * half;
   return {bounded(c.t - half, error), bounded(c.t + half, error)};
 }
 

@@ -11,6 +11,7 @@ namespace {
 struct Setting {
   double R, r;                // R + r = 1
   Vec3d foot, along;          // closest approach to the centre; unit direction
+  double stretch;             // relative error of u, from the direction's
   double foot_error;          // of each coordinate of foot
   double reach;               // |u| <= reach: beyond it the line is outside
   double t_of_foot, t_error;  // t = t_of_foot + u * t_per_u
@@ -28,7 +29,7 @@ Vec3d at(const Setting& s, double u) { return s.foot + s.along * u; }
 Value implicit(const Setting& s, double u) {
   const Vec3d p = at(s, u);
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-  const double moved = s.foot_error + 8 * unit_roundoff;  // of rho - R and of z
+  const double moved = s.foot_error + std::fabs(u) * s.stretch + 8 * unit_roundoff;  // of rho - R and of z
   const auto factor = [&](double q) {
     return Value{(q - s.r) * (q + s.r) + p.z * p.z, 2 * (std::fabs(q) + std::fabs(p.z)) * moved +
                                                         6 * unit_roundoff * s.r * s.r + 2 * moved * moved};
@@ -114,6 +115,7 @@ bool set_up(const Torus& torus, const LocalRay<double>& ray, Setting& s) {
        c.p,
        scaled.direction * std::sqrt(c.inverse_dd),
        c.p_error,
+       c.stretch,
        std::sqrt(1 + slack - bb) + slack,
        c.t,
        c.t_error,
@@ -130,7 +132,8 @@ struct Knot {  // an end of a monotone piece
 
 Crossing crossing_of(const Setting& s, double u, double u_error) {
   const double t = s.t_of_foot + u * s.t_per_u;
-  const double rounding = 4 * unit_roundoff * (std::fabs(s.t_of_foot) + std::fabs(u) * s.t_per_u);
+  const double rounding =
+      4 * unit_roundoff * std::fabs(s.t_of_foot) + (s.stretch + 4 * unit_roundoff) * std::fabs(u) * s.t_per_u;
   return {t, s.t_error + u_error * s.t_per_u + rounding};
 }
 

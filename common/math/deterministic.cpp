@@ -30,6 +30,7 @@ struct Reduced {
 };
 
 Reduced reduced(double radians) {
+  if (!std::isfinite(radians)) return {0, {std::numeric_limits<double>::quiet_NaN(), 0}};
   constexpr double exact_below = 1e9;
   if (std::fabs(radians) > exact_below) radians = std::fmod(radians, 2 * pi.hi);
   const double n = std::rint(radians * (2 / pi.hi));

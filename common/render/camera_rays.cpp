@@ -5,16 +5,20 @@
 namespace rayfarm {
 namespace {
 
-Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+/// Unit, whatever the length: its square may not be a number.
+Vec3d direction_of(const glm::dvec3& v) {
+  const double size = max_abs(Vec3d{v.x, v.y, v.z});
+  return normalized(Vec3d{v.x / size, v.y / size, v.z / size});
+}
 
 }  // namespace
 
 CameraRays::CameraRays(const Camera& camera, Size film) : width_(film.width), height_(film.height) {
   const auto& perspective = std::get<PerspectiveCamera>(camera);
-  origin_ = vec(perspective.from);
-  forward_ = normalized(vec(perspective.direction));
+  origin_ = {perspective.from.x, perspective.from.y, perspective.from.z};
+  forward_ = direction_of(perspective.direction);
   // The view is left-handed: seen along +z with y up, +x is to the right.
-  const Vec3d left = normalized(cross(forward_, vec(perspective.up)));
+  const Vec3d left = normalized(cross(forward_, direction_of(perspective.up)));
   const Vec3d top = normalized(cross(left, forward_));
   const double half_width = deterministic::tan_deg(perspective.angle_deg / 2);
   right_ = left * -half_width;

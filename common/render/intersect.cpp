@@ -42,8 +42,9 @@ ObjectStart start_of_crossings(const Crossings& c, std::uint32_t leaf) {
 }
 
 ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
-  if (number != q.ray.left_leaf && is_convex(leaf))
-    return start_of_interval(convex_interval(leaf, to_local(leaf, q)), number);
+  if (number != q.ray.left_leaf)
+    if (const auto interval = convex_interval(leaf, to_local(leaf, q)))
+      return start_of_interval(*interval, number);
   return start_of_crossings(crossings_ahead(leaf, number, q), number);
 }
 
@@ -65,13 +66,13 @@ void visit_objects(const World::Parts& w, const RayQuery& q, const double& t_max
   w.bvh.visit(q, t_max, [&](std::uint32_t place) { return visit(w.bounded_objects[place]); });
 }
 
-/// The boundaries of all objects in order, and which objects the ray starts in.
-void gather_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
+/// The boundaries of all objects, in order. Returns how many objects the ray starts in.
+std::ptrdiff_t gather_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
   ws.events.clear();
-  ws.inside.assign(w.objects.size(), false);
+  std::ptrdiff_t inside = 0;
   visit_objects(w, q, infinity, [&](const ObjectRef& ref) {
     const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
-    ws.inside[ref.object] = gather(items, w.leaves, q, infinity, ws.csg);
+    inside += gather(items, w.leaves, q, infinity, ws.csg);
     Boundary b;
     for (std::size_t next = 0; next_boundary(items, ws.csg, next, b);)
       ws.events.push_back({b.t - b.error, b.t + b.error, ref.object, b});
@@ -79,11 +80,11 @@ void gather_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) 
   });
   std::sort(ws.events.begin(), ws.events.end(),
             [](const auto& a, const auto& b) { return a.lo != b.lo ? a.lo < b.lo : a.object < b.object; });
+  return inside;
 }
 
 std::optional<Boundary> first_of_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
-  gather_union(w, q, ws);
-  auto inside = std::count(ws.inside.begin(), ws.inside.end(), true);
+  std::ptrdiff_t inside = gather_union(w, q, ws);
   for (std::size_t next = 0; next < ws.events.size();) {
     const bool before = inside > 0;
     const std::size_t first = next;

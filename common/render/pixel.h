@@ -1,6 +1,7 @@
 // A pixel from its samples: where the film's values come from, for who renders and for who watches.
 #pragma once
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -35,18 +36,17 @@ struct PixelSum {
   }
 };
 
-/// All samples of a pixel. Asks stop() between samples, and gives nothing once that has said true.
+/// All samples of a pixel; nothing when stop(), asked every few hundred rays, has said true.
 template <class Observer, class Stop>
 std::optional<PixelSum> pixel_sum(Tracer<Observer>& tracer, const RenderSettings& settings, Pixel pixel,
                                   const Stop& stop) {
-  constexpr std::uint32_t samples_between_questions = 16;  // a slow pixel must not delay a stop
+  tracer.stop = std::ref(stop);
   const PixelSampler sampler(settings, pixel);
   PixelSum sum;
-  for (std::uint32_t s = 0; s < settings.spp; ++s) {
-    if (s % samples_between_questions == 0 && stop()) return std::nullopt;
+  for (std::uint32_t s = 0; s < settings.spp && !tracer.is_stopped(); ++s)
     sum.add(sample_radiance(tracer, sampler, pixel, s));
-  }
-  return sum;
+  tracer.stop = nullptr;
+  return tracer.is_stopped() ? std::nullopt : std::optional(sum);
 }
 
 }  // namespace rayfarm

@@ -12,6 +12,7 @@
 //     depth_reached()                           instead of these, when the rays may not go deeper
 //   ended(color)
 #pragma once
+#include <functional>
 #include <span>
 #include <variant>
 
@@ -90,7 +91,14 @@ class Tracer {
 
   Observer observer;
 
+  /// Asked every few hundred rays, also in the middle of a sample: one sample may trace 2^depth of them. Once it
+  /// has said true, all that is traced is black and of no use. Empty: never.
+  std::function<bool()> stop;
+  bool is_stopped() const { return stopped_; }
+
  private:
+  static constexpr int rays_between_questions = 256;
+
   static Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
   template <class LightPoint>
@@ -119,6 +127,11 @@ class Tracer {
   }
 
   Vec3d radiance(const Ray& ray, RayKind kind, std::uint32_t depth, double importance) {
+    if (++rays_since_question_ == rays_between_questions) {
+      rays_since_question_ = 0;
+      stopped_ = stopped_ || (stop && stop());
+    }
+    if (stopped_) return {};
     const std::optional<Hit> hit = nearest_hit(ray);
     observer.traced(kind, ray, depth, importance, hit);
     const Vec3d color = hit ? radiance_at(*hit, -ray.direction, depth, importance) : background_;
@@ -199,6 +212,8 @@ class Tracer {
   Vec3d background_;
   std::vector<SampledLight> lights_;
   WorldWorkspace workspace_;
+  int rays_since_question_ = 0;
+  bool stopped_ = false;
 };
 
 }  // namespace rayfarm

@@ -12,7 +12,7 @@ struct Inherited {
   BoundedAffine world_from_parent;
   std::optional<Vec3d> color;
   std::uint32_t material = 0;
-  std::vector<Texture> textures;
+  std::uint32_t first_texture = 0, textures = 0;  // range of Parts::textures, those of ancestors first
 };
 
 /// Walks the scene's tree once and fills the flat arrays.
@@ -31,12 +31,19 @@ class Builder {
  private:
   const Node& node(std::uint32_t i) const { return parts_.scene.nodes[i]; }
 
-  Inherited inherited_by(std::uint32_t number, const Inherited& from_above) const {
+  Inherited inherited_by(std::uint32_t number, const Inherited& from_above) {
     const Node& n = node(number);
-    Inherited result{from_above.world_from_parent * bounded(n.parent_from_node), from_above.color,
-                     n.material.value_or(from_above.material), from_above.textures};
+    Inherited result = from_above;
+    result.world_from_parent = from_above.world_from_parent * bounded(n.parent_from_node);
+    result.material = n.material.value_or(from_above.material);
     if (n.color) result.color = vec(*n.color);
-    result.textures.insert(result.textures.end(), n.textures.begin(), n.textures.end());
+    if (n.textures.empty()) return result;
+    // A new range, shared by all that inherits it.
+    result.first_texture = static_cast<std::uint32_t>(parts_.textures.size());
+    result.textures = from_above.textures + static_cast<std::uint32_t>(n.textures.size());
+    for (std::uint32_t i = 0; i < from_above.textures; ++i)
+      parts_.textures.push_back(Texture(parts_.textures[from_above.first_texture + i]));
+    parts_.textures.insert(parts_.textures.end(), n.textures.begin(), n.textures.end());
     return result;
   }
 
@@ -109,9 +116,7 @@ class Builder {
     LeafSurface surface;
     surface.material = inherited.material;
     surface.color = inherited.color.value_or(vec(parts_.materials[inherited.material].color));
-    surface.first_texture = static_cast<std::uint32_t>(parts_.textures.size());
-    surface.textures = static_cast<std::uint32_t>(inherited.textures.size());
-    parts_.textures.insert(parts_.textures.end(), inherited.textures.begin(), inherited.textures.end());
+    surface.first_texture = inherited.first_texture, surface.textures = inherited.textures;
     parts_.surfaces.push_back(surface);
     return static_cast<std::uint32_t>(parts_.leaves.size() - 1);
   }

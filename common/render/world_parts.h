@@ -57,7 +57,6 @@ struct WorldWorkspace {
   };
   CsgWorkspace csg;
   std::vector<UnionEvent> events;
-  std::vector<bool> inside;  // per object
 };
 
 /// The first boundary of the scene's union ahead of the ray.

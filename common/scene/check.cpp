@@ -113,6 +113,9 @@ void check_surface(const Scene& scene, std::size_t index) {
   if (!node.color && node.textures.empty()) return;
   const std::string place = place_of(scene, index);
   if (node.color) check_weight(*node.color, place, "color");
+  if (node.textures.size() > max_textures)
+    fail(place, "at most " + std::to_string(max_textures) + " textures on a node, has " +
+                    std::to_string(node.textures.size()));
   for (const Texture& texture : node.textures) {
     const Checker& checker = std::get<Checker>(texture);
     if (!std::isfinite(checker.fu) || !std::isfinite(checker.fv))

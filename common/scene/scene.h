@@ -119,6 +119,7 @@ struct SceneError : std::runtime_error {
 constexpr std::size_t max_nodes = 8'000'000;
 constexpr std::uint32_t max_tree_depth = 256;
 constexpr std::size_t max_lights = 1024;
+constexpr std::size_t max_textures = 16;  // of one node
 
 /// Throws SceneError unless the scene can be rendered: the tree closes, indices are in range, numbers are
 /// finite and in range, every leaf's transform can be inverted, the camera looks somewhere.

@@ -86,13 +86,15 @@ std::vector<Solid> all_solids() {
   return {Sphere{}, Cube{}, Cylinder{-0.5, 0.75}, Torus{1, 0.25}, Torus{0.5, 0.8}, Plane{}};
 }
 
-/// Two chains of transforms that are the same in exact arithmetic.
-std::pair<Affine, Affine> twin_chains(RandomRays& random) {
+/// Two chains of transforms that are the same in exact arithmetic, the first stretched by up to 10^decades.
+std::pair<Affine, Affine> twin_chains(RandomRays& random, double decades = 0) {
   const double a = random.uniform(-180, 180), b = random.uniform(-180, 180);
+  const auto factor = [&] { return std::pow(10.0, random.uniform(-decades, decades)); };
+  const Affine stretch = scaling({factor(), factor(), factor()});
   const glm::dvec3 axis{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1)};
   const glm::dvec3 move{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)};
-  const Affine one = translation(move) * rotation_deg(axis, a + b);
-  const Affine two = translation(move) * rotation_deg(axis, a) * rotation_deg(axis, b);
+  const Affine one = translation(move) * rotation_deg(axis, a + b) * stretch;
+  const Affine two = translation(move) * rotation_deg(axis, a) * rotation_deg(axis, b) * stretch;
   return {one, two};
 }
 
@@ -127,6 +129,79 @@ TEST(Csg, ASolidMinusItselfIsNothingWhateverItsTransforms) {
               << "solid " << solid.index() << " op " << static_cast<int>(op);
         }
       }
+}
+
+TEST(Csg, ASolidMinusItselfIsNothingFromItsInsideAlso) {
+  RandomRays random(16);
+  CsgWorkspace ws;
+  for (const double decades : {0.0, 1.0, 2.0, 3.0})
+    for (const Solid& solid : all_solids())
+      for (int scene_number = 0; scene_number < 10; ++scene_number) {
+        const auto [one, two] = twin_chains(random, decades);
+        Scene scene;
+        // One of them through a chain of nodes: its error bound is another one.
+        scene.nodes = {inner(CsgOp::exclusive_or, 2), leaf(solid, one), inner(CsgOp::unite, 1), leaf(solid)};
+        scene.nodes[2].parent_from_node = two;
+        const World world(scene);
+        for (int i = 0; i < 1'000; ++i) {
+          Ray r;
+          const glm::dvec3 start = point(one, glm::dvec3(i % 2 ? 0 : random.uniform(-0.1, 0.1)));
+          r.origin = {start.x, start.y, start.z}, r.direction = random.direction();
+          ASSERT_EQ(boundaries(world, r, ws), 0) << "solid " << solid.index() << " decades " << decades;
+        }
+      }
+}
+
+/// Whether a ray through x = y = 0 along z meets the two solids combined.
+bool meets(CsgOp op, const Node& a, const Node& b) {
+  Scene scene;
+  scene.nodes = {inner(op, 2), a, b};
+  const World world(scene);
+  WorldWorkspace ws;
+  Ray r;
+  r.origin = {0, 0, -5}, r.direction = {0, 0, 1};
+  return first_boundary(world.parts(), RayQuery(r), ws).has_value();
+}
+
+TEST(Csg, ARayInACommonFaceIsInsideExactlyOneOfTwoNeighbours) {
+  // Left and right of x = 0, above and below y = 0: however the neighbour was turned there.
+  const Affine low = translation({0, -0.5, 0});
+  for (const Affine& turn : {translation({-1, 0, 0}), rotation_deg(1, 180) * translation({0, 0, -1}),
+                             scaling({-1, 1, 1}), rotation_deg(2, 180) * translation({0, -1, 0})}) {
+    const Node here = leaf(Cube{}, low), there = leaf(Cube{}, low * turn);
+    EXPECT_TRUE(meets(CsgOp::unite, here, there));
+    EXPECT_FALSE(meets(CsgOp::intersect, here, there));
+    EXPECT_TRUE(meets(CsgOp::exclusive_or, here, there));
+  }
+  const Node ball = leaf(Sphere{});
+  EXPECT_TRUE(meets(CsgOp::intersect, ball, leaf(Plane{}, rotation_deg(0, 90))) !=
+              meets(CsgOp::intersect, ball, leaf(Plane{}, rotation_deg(0, -90))));
+}
+
+TEST(Csg, AFarPlaneIsThereOrNotAtEveryScaleAlike) {
+  // Rays within rounding of the horizon: their error bounds must scale with the scene.
+  RandomRays random(17);
+  WorldWorkspace ws;
+  Scene scene;
+  scene.nodes = {inner(CsgOp::unite, 1), leaf(Plane{}, translation({0, -1, 0}) * rotation_deg(0, -90))};
+  const World here(scene);
+  for (const double scale : {0x1p-20, 0.5, 2.0, 0x1p20}) {
+    scene.nodes[0].parent_from_node = scaling({scale, scale, scale});
+    const World there(scene);
+    for (int i = 0; i < 2'000; ++i) {
+      Ray r;
+      r.origin = random.in_box(3);
+      r.direction = normalized(Vec3d{random.uniform(-1, 1), random.uniform(-2e-14, 2e-14), 1});
+      const auto a = first_boundary(here.parts(), RayQuery(r), ws);
+      r.origin = r.origin * scale;
+      const auto b = first_boundary(there.parts(), RayQuery(r), ws);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (a) {
+        ASSERT_EQ(a->t * scale, b->t);
+        ASSERT_EQ(a->error * scale, b->error);
+      }
+    }
+  }
 }
 
 TEST(Csg, ASharedFaceLeavesNoSkin) {

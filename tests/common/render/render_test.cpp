@@ -73,6 +73,25 @@ TEST(Render, AStopIsHeardInMidPixelAndDropsTheTile) {
   EXPECT_EQ(questions, 4);
 }
 
+TEST(Render, AStopIsHeardInMidSample) {
+  // A glass ball in a mirroring hall: one sample would trace 2^depth rays.
+  Scene scene;
+  Material glass;
+  glass.specular = 1, glass.transmission = 1;
+  scene.materials = {glass};
+  scene.nodes = {{Operation{CsgOp::unite, 2}, {}, 0u, {}, {}, {}},
+                 {Sphere{}, {}, {}, {}, {}, {}},
+                 {Operation{CsgOp::subtract, 2}, {}, {}, {}, {}, {}},
+                 {Sphere{}, scaling({20, 20, 20}), {}, {}, {}, {}},
+                 {Sphere{}, scaling({10, 10, 10}), {}, {}, {}, {}}};
+  scene.camera = PerspectiveCamera{{0, 0, -5}, {0, 0, 1}, {0, 1, 0}, 10};
+  RenderSettings s = small_settings();
+  s.spp = 1, s.max_depth = 90, s.min_importance = 0;
+  int questions = 0;
+  EXPECT_EQ(render_tile(World(scene), s, 0, all_passes, [&] { return ++questions > 10; }), std::nullopt);
+  EXPECT_EQ(questions, 11);
+}
+
 /// All lengths of the scene times 2^k.
 Scene scaled(Scene scene, int k) {
   const double f = std::ldexp(1.0, k);
@@ -128,6 +147,18 @@ TEST(Render, EffectsCanBeSwitchedOff) {
   for (const PassImage& image : *images) total += image.counters;
   EXPECT_EQ(total.rays(), total.primary);
   EXPECT_GT(total.primary_hits, 0u);
+}
+
+TEST(Render, ACamerasDirectionMayHaveAnyLength) {
+  Scene scene = random_scene(5);
+  const RenderSettings s = small_settings();
+  auto& camera = std::get<PerspectiveCamera>(scene.camera);
+  const PerspectiveCamera as_it_was = camera;
+  const glm::dvec3 color = probe(World(scene), s, 30, 30, {0, 0}).color;
+  for (const double length : {1e-200, 1e200}) {
+    camera.direction = as_it_was.direction * length, camera.up = as_it_was.up * length;
+    EXPECT_LT(glm::length(probe(World(scene), s, 30, 30, {0, 0}).color - color), 1e-9);
+  }
 }
 
 TEST(Render, ACameraInsideGlassSeesOut) {
