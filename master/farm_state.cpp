@@ -43,8 +43,9 @@ void Farm::State::drop_old_films() {
   for (auto id = ended_jobs.rbegin(); id != ended_jobs.rend(); ++id) {
     Job& job = jobs.at(*id);
     if (!job.canvas) continue;
+    const bool is_newest = kept == 0;
     kept += film_bytes(job);
-    if (kept <= limits.film_bytes || *id == ended_jobs.back()) continue;
+    if (is_newest || kept <= limits.film_bytes) continue;
     job.canvas.reset();
     job_by_key.erase(std::exchange(job.spec.key, {}));
     job.message += (job.message.empty() ? "" : "; ") + std::string("its picture is no longer kept");

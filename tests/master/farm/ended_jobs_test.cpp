@@ -44,6 +44,16 @@ TEST(EndedJobs, TheLastOneKeepsItsFilmHoweverBig) {
   EXPECT_NE(farm.film(next), nullptr);
 }
 
+TEST(EndedJobs, OneThatNeverBeganDropsNobodysFilm) {
+  Farm farm({.film_bytes = 0});
+  FakeWorker worker(farm, pc());
+  const JobId done = done_job(farm, worker);
+  JobSpec on_hold = job_of(one_tile);
+  on_hold.hold = true;
+  farm.cancel(farm.submit(on_hold, 0s), 0s);
+  EXPECT_NE(farm.film(done), nullptr);
+}
+
 TEST(EndedJobs, FilmsOfJobsThatGoOnDoNotCountAndAreNotDropped) {
   Farm farm({.film_bytes = one_film});
   FakeWorker worker(farm, pc());
