@@ -41,7 +41,7 @@ struct Farm::State {
 
   // Giving work out.
   Job* next_job_for(const Worker& worker);
-  /// False when the worker has enough or there is nothing for it.
+  /// False when the worker has enough or there is nothing for it; else ask again.
   bool give_one(Worker& worker, FarmTime now);
   void fill(Worker& worker, FarmTime now);
   void fill_all(FarmTime now);

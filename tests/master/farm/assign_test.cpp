@@ -64,6 +64,20 @@ TEST(Farm, AWorkerThatClaimsToBeInfinitelyFastHoldsABoundedNumberOfLeases) {
   EXPECT_EQ(worker.held().size(), 1024u);
 }
 
+TEST(Farm, AJobStartsWithItsFirstAssignment) {
+  Farm farm;
+  FakeWorker worker(farm, remote("pc", 2));
+  farm.submit(job_of(ten_tiles), 0s);
+  JobSpec urgent = job_of(ten_tiles);
+  urgent.priority = 99;
+  const JobId next = farm.submit(urgent, 0s);
+  EXPECT_EQ(farm.job(next, 0s)->state, JobState::waiting) << "though nobody has room for it";
+  EXPECT_EQ(farm.film(next), nullptr);
+  worker.finish_one(1s);
+  EXPECT_EQ(farm.job(next, 1s)->state, JobState::running);
+  EXPECT_EQ(worker.held().back().job, next);
+}
+
 TEST(Farm, FewTilesAreSpreadOverAllWorkers) {
   Farm farm;
   std::vector<FakeWorker> workers;
