@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/render/settings.h"
+
 namespace rayfarm {
+namespace {
+
+constexpr std::size_t most_names = 10'000;  // a worker may come under a new one each time
+
+}  // namespace
 
 Job* Farm::State::living_job(JobId id) {
   const auto job = jobs.find(id);
@@ -25,9 +32,29 @@ std::string Farm::State::unique_name(const std::string& wanted) const {
 }
 
 NameId Farm::State::id_of_name(const std::string& name) {
-  const auto [known, is_new] = name_ids.try_emplace(name, NameId{static_cast<std::uint32_t>(names.size())});
-  if (is_new) names.push_back(name);
-  return known->second;
+  if (const auto known = name_ids.find(name); known != name_ids.end()) return known->second;
+  if (names.size() > most_names) return NameId{};
+  const NameId id{static_cast<std::uint32_t>(names.size())};
+  names.push_back(name);
+  name_ids[name] = id;
+  return id;
+}
+
+void Farm::State::take_in_scene(JobSpec& spec) {
+  if (jobs.size() - ended_jobs.size() >= limits.unfinished_jobs)
+    throw SettingsError("the farm holds " + std::to_string(limits.unfinished_jobs) +
+                        " unfinished jobs, and takes no more: wait for some to end, or cancel them");
+  std::erase_if(scenes, [](const auto& scene) { return scene.second.expired(); });
+  if (const auto known = scenes.find(spec.scene_hash); known != scenes.end()) {
+    spec.scene_bytes = known->second.lock();
+    return;
+  }
+  std::uint64_t bytes = spec.scene_bytes->size();
+  for (const auto& [hash, scene] : scenes) bytes += scene.lock()->size();
+  if (bytes > limits.scene_bytes)
+    throw SettingsError("the scenes of unfinished jobs would take " + std::to_string(bytes) + " bytes, of " +
+                        std::to_string(limits.scene_bytes) + ": wait for some to end, or cancel them");
+  scenes[spec.scene_hash] = spec.scene_bytes;
 }
 
 void Farm::State::drop_old_jobs() {

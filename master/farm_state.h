@@ -2,6 +2,7 @@
 #pragma once
 #include <deque>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,9 +19,11 @@ struct Farm::State {
   std::map<JobId, Job> jobs;
   std::deque<JobId> ended_jobs;  // all of them, in the order of their ends
   std::map<std::string, JobId> job_by_key;
+  std::map<std::string, SharedBytes::weak_type> scenes;  // by hash; of unfinished jobs
   std::map<WorkerId, Worker> workers;
   std::set<std::string, std::less<>> drained_names;
-  std::vector<std::string> names;  // by NameId; of all workers that ever were
+  // By NameId: of all workers that there were, as films outlive them; the first stands for those too many.
+  std::vector<std::string> names{"(one of many)"};
   std::map<std::string, NameId> name_ids;
   // Exactly the jobs that want workers, the next to be served first.
   std::set<std::pair<int, JobId>> queue;  // minus priority, id
@@ -30,14 +33,14 @@ struct Farm::State {
 
   void tell(std::string text) { events.push_back({false, std::move(text)}); }
   void warn(std::string text) { events.push_back({true, std::move(text)}); }
-  const std::string& name_of(const Worker& worker) const {
-    return names[static_cast<std::size_t>(worker.name)];
-  }
 
   Job* living_job(JobId id);
   Worker* worker_named(std::string_view name);
   std::string unique_name(const std::string& wanted) const;
   NameId id_of_name(const std::string& name);
+
+  /// Makes the job share its scene with others of the same hash; throws SettingsError when the farm is full.
+  void take_in_scene(JobSpec& spec);
 
   // Giving work out.
   Job* next_job_for(const Worker& worker);

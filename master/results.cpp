@@ -76,7 +76,7 @@ void Farm::State::compare_late(Worker& worker, const Result& result) {
   const std::optional<NameId> other = contradicted(job, result.tile, result.images);
   if (!other || worker.was_contradicted) return;
   worker.was_contradicted = true;  // one line for each connection: a broken machine must not flood the log
-  warn("workers " + name_of(worker) + " and " + names[static_cast<std::size_t>(*other)] +
+  warn("workers " + worker.info.name + " and " + names[static_cast<std::size_t>(*other)] +
        " differ in the pixels of tile " + std::to_string(result.tile) + " of " + title_of(job) +
        "; one of them computes wrongly");
 }

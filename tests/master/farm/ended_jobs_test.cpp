@@ -123,6 +123,28 @@ TEST(EndedJobs, DropTheirScenes) {
   EXPECT_TRUE(scene.expired());
 }
 
+TEST(UnfinishedJobs, ShareTheBytesOfTheirScene) {
+  Farm farm;
+  const JobSpec first = job_of(one_tile), second = job_of(one_tile);
+  farm.submit(first, 0s);
+  farm.submit(second, 0s);
+  EXPECT_EQ(first.scene_bytes.use_count(), 3);
+  EXPECT_EQ(second.scene_bytes.use_count(), 1);
+}
+
+TEST(UnfinishedJobs, AreBoundedInNumberAndInTheBytesOfTheirScenes) {
+  for (const FarmLimits limits : {FarmLimits{.unfinished_jobs = 2}, FarmLimits{.scene_bytes = 2 * 3}}) {
+    Farm farm(limits);
+    farm.submit(job_of(one_tile, "a", "scene a"), 0s);
+    const JobId b = farm.submit(job_of(one_tile, "b", "scene b"), 0s);
+    const JobSpec c = job_of(one_tile, "c", "scene c");
+    EXPECT_THROW(farm.submit(c, 0s), SettingsError);
+    EXPECT_EQ(farm.jobs(0s).size(), 2u);
+    farm.cancel(b, 0s);
+    EXPECT_NO_THROW(farm.submit(c, 0s));
+  }
+}
+
 // An honest worker's result may be under way while other jobs end.
 TEST(EndedJobs, LateResultsForThemAreNoLies) {
   for (const FarmLimits limits : {FarmLimits{.film_bytes = 0}, FarmLimits{.jobs = 1}}) {
