@@ -1,5 +1,6 @@
 #include "master/cli/master_api.h"
 
+#include <chrono>
 #include <cstdlib>
 
 #include "master/cli/exit_code.h"
@@ -27,8 +28,8 @@ std::string error_in(const HttpReply& reply) {
   return "the master answered with HTTP status " + std::to_string(reply.status);
 }
 
-HttpReply asked(const std::string& method, const std::string& target, const std::string& body) {
-  HttpRequest request{method, master_url(), target, body};
+HttpReply asked(HttpRequest request) {
+  request.url = master_url();
   request.cancelled = interrupted;
   try {
     HttpReply reply = send(request);
@@ -42,6 +43,7 @@ HttpReply asked(const std::string& method, const std::string& target, const std:
     throw CommandError(ExitCode::timed_out, error.what());
   } catch (const RequestCancelled& error) {
     throw CommandError(ExitCode::interrupted, error.what());
+    if (reply.status == 503) throw MasterBusy(error_in(reply));
   } catch (const std::invalid_argument& error) {
     throw CommandError(ExitCode::usage, std::string(error.what()) + " (RAYFARM_MASTER)");
   }
@@ -61,10 +63,13 @@ std::string master_url() {
   return url != nullptr && *url != '\0' ? url : "http://127.0.0.1:5412";
 }
 
-json get_json(const std::string& target) { return parsed(asked("GET", target, "")); }
-std::string get_bytes(const std::string& target) { return asked("GET", target, "").body; }
+json get_json(const std::string& target) { return parsed(asked({"GET", "", target, ""})); }
+std::string get_bytes(const std::string& target) {
+  constexpr auto patience = std::chrono::minutes(10);  // a film of 500 megapixels is compressed first
+  return asked({"GET", "", target, "", patience}).body;
+}
 json post_json(const std::string& target, const json& body) {
-  return parsed(asked("POST", target, body.dump()));
+  return parsed(asked({"POST", "", target, body.dump()}));
 }
 
 std::string job_target(JobNumber id) { return "/api/v1/jobs/" + std::to_string(id); }

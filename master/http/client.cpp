@@ -40,13 +40,17 @@ std::string without_brackets(const std::string& host) {
   return host.starts_with('[') ? host.substr(1, host.size() - 2) : host;
 }
 
-asio::awaitable<HttpReply> exchange(const HttpRequest& asked, const Peer& peer, beast::tcp_stream& stream) {
+using Clock = std::chrono::steady_clock;
+
+/// Moves the deadline with each step, however small: a film of gigabytes takes as long as it takes.
+asio::awaitable<HttpReply> exchange(const HttpRequest& asked, const Peer& peer, beast::tcp_stream& stream,
+                                    Clock::time_point& deadline) {
   tcp::resolver resolver(stream.get_executor());
   const std::string host = without_brackets(peer.host);
   const tcp::resolver::results_type places =
       co_await resolver.async_resolve(host, peer.port, asio::use_awaitable);
-  stream.expires_after(asked.patience);
   co_await stream.async_connect(places, asio::use_awaitable);
+  deadline = Clock::now() + asked.patience;
 
   http::request<http::string_body> request(http::string_to_verb(asked.method), asked.target, 11, asked.body);
   request.set(http::field::host, peer.host + ":" + peer.port);
@@ -54,12 +58,20 @@ asio::awaitable<HttpReply> exchange(const HttpRequest& asked, const Peer& peer, 
   request.set(http::field::content_type, "application/json");
   request.keep_alive(false);
   request.prepare_payload();
-  co_await http::async_write(stream, request, asio::use_awaitable);
+  http::request_serializer<http::string_body> serializer(request);
+  while (!serializer.is_done()) {
+    co_await http::async_write_some(stream, serializer, asio::use_awaitable);
+    deadline = Clock::now() + asked.patience;
+  }
 
   beast::flat_buffer buffer;
   http::response_parser<http::string_body> parser;
   parser.body_limit(boost::none);  // a film of 500 megapixels has gigabytes
-  co_await http::async_read(stream, buffer, parser, asio::use_awaitable);
+  parser.eager(true);
+  while (!parser.is_done()) {
+    co_await http::async_read_some(stream, buffer, parser, asio::use_awaitable);
+    deadline = Clock::now() + asked.patience;
+  }
   http::response<http::string_body> response = parser.release();
   co_return HttpReply{response.result_int(), std::move(response.body())};
 }
@@ -73,19 +85,21 @@ HttpReply send(const HttpRequest& request) {
   beast::tcp_stream stream(io);
   std::optional<HttpReply> reply;
   std::exception_ptr failure;
-  asio::co_spawn(io, exchange(request, peer, stream), [&](std::exception_ptr error, HttpReply received) {
-    failure = error;
-    reply = std::move(received);
-  });
+  Clock::time_point deadline = Clock::now() + request.patience;
+  asio::co_spawn(io, exchange(request, peer, stream, deadline),
+                 [&](std::exception_ptr error, HttpReply received) {
+                   failure = error;
+                   reply = std::move(received);
+                 });
   while (!reply) {
     io.run_for(glance);
+    if (!reply && Clock::now() > deadline)
+      throw RequestTimedOut("the master at " + request.url + " took too long");
     if (request.cancelled()) throw RequestCancelled("interrupted");
   }
   try {
     if (failure) std::rethrow_exception(failure);
   } catch (const boost::system::system_error& error) {
-    if (error.code() == beast::error::timeout)
-      throw RequestTimedOut("the master at " + request.url + " took too long");
     throw MasterUnreachable("no master answers at " + request.url + " (" + error.code().message() + ")");
   }
   return std::move(*reply);

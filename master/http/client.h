@@ -11,7 +11,7 @@ namespace rayfarm {
 struct MasterUnreachable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// The master was reached but the deadline passed.
+/// Nothing came or went for too long.
 struct RequestTimedOut : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -21,10 +21,10 @@ struct RequestCancelled : std::runtime_error {
 
 struct HttpRequest {
   std::string method = "GET";
-  std::string url;     // of the master: http://HOST[:PORT]
-  std::string target;  // "/api/v1/jobs"
-  std::string body;    // JSON; empty: none
-  std::chrono::seconds patience{60};
+  std::string url;                                         // of the master: http://HOST[:PORT]
+  std::string target;                                      // "/api/v1/jobs"
+  std::string body;                                        // JSON; empty: none
+  std::chrono::seconds patience{60};                       // while no byte comes or goes
   std::function<bool()> cancelled = [] { return false; };  // asked about 20 times a second
 };
 struct HttpReply {

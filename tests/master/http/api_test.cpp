@@ -142,6 +142,16 @@ TEST(FarmDoor, AnAskerIsNotKeptWhenTheFarmHasStopped) {
   EXPECT_THROW(stuck.ask([](Farm&, FarmTime) { return 0; }), FarmUnavailable);
 }
 
+TEST(FarmDoor, WhatItsAskerGaveUpIsNotDoneLater) {
+  std::vector<std::function<void(Farm&, FarmTime)>> kept;
+  FarmDoor stuck([&](auto task) { kept.push_back(std::move(task)); });
+  stuck.close();
+  EXPECT_THROW(stuck.ask([](Farm& f, FarmTime now) { return f.submit(small_job(), now); }), FarmUnavailable);
+  Farm farm;
+  kept.at(0)(farm, FarmTime{});
+  EXPECT_TRUE(farm.jobs(FarmTime{}).empty());
+}
+
 TEST(NewsWait, IsAskedForByJobsAloneAndIsBounded) {
   const auto wait = [](const char* target) { return news_wait({"GET", target, "", "", "", "", ""}); };
   EXPECT_EQ(wait("/api/v1/jobs?after=3&wait=10")->after, 3u);
@@ -154,13 +164,3 @@ TEST(NewsWait, IsAskedForByJobsAloneAndIsBounded) {
 
 }  // namespace
 }  // namespace rayfarm
-TEST(FarmDoor, WhatItsAskerGaveUpIsNotDoneLater) {
-  std::vector<std::function<void(Farm&, FarmTime)>> kept;
-  FarmDoor stuck([&](auto task) { kept.push_back(std::move(task)); });
-  stuck.close();
-  EXPECT_THROW(stuck.ask([](Farm& f, FarmTime now) { return f.submit(small_job(), now); }), FarmUnavailable);
-  Farm farm;
-  kept.at(0)(farm, FarmTime{});
-  EXPECT_TRUE(farm.jobs(FarmTime{}).empty());
-}
-

@@ -278,6 +278,26 @@ TEST(HttpClient, SaysThatNobodyAnswers) {
     EXPECT_THROW(send({"GET", wrong, "/", ""}), std::invalid_argument) << wrong;
 }
 
+TEST(HttpClient, LeavesASilentMaster) {
+  RawListener silent;
+  EXPECT_THROW(send({"GET", silent.url(), "/", "", 0s}), RequestTimedOut);
+}
+
+// One byte each time that it asks: longer than its patience, but never silent.
+TEST(HttpClient, StaysWhileBytesCome) {
+  RawListener slow;
+  const std::string body(30, 'x'), answer = "HTTP/1.1 200 OK\r\nContent-Length: 30\r\n\r\n" + body;
+  std::size_t sent = answer.size() - body.size();
+  HttpRequest request{"GET", slow.url(), "/", "", 1s};
+  request.cancelled = [&] {
+    if (!slow.accepted())
+      if (slow.accept()) slow.send(answer.substr(0, sent));
+    if (slow.accepted() && sent < answer.size()) slow.send(answer.substr(sent++, 1));
+    return false;
+  };
+  EXPECT_EQ(send(request).body, body);
+}
+
 TEST(HttpClient, LeavesWhenToldTo) {
   FarmThread farm;
   const HttpServer server({.listen = "127.0.0.1:0"}, door_to(farm));
