@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "master/cli/exit_code.h"
 #include "master/cli/interrupt.h"
@@ -13,7 +14,16 @@ namespace {
 
 using nlohmann::json;
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int news_seconds = 10;  // how long the master may hold a question for news
+constexpr auto busy_patience = std::chrono::minutes(2);
+constexpr auto busy_pause = std::chrono::milliseconds(500);
+
+/// The master says: try again.
+struct MasterBusy : CommandError {
+  explicit MasterBusy(const std::string& message) : CommandError(ExitCode::failed, message) {}
+};
 
 ExitCode exit_code_of(unsigned status) {
   if (status == 403 || status == 401) return ExitCode::not_allowed;
@@ -33,6 +43,7 @@ HttpReply asked(HttpRequest request) {
   request.cancelled = interrupted;
   try {
     HttpReply reply = send(request);
+    if (reply.status == 503) throw MasterBusy(error_in(reply));
     if (reply.status >= 300) throw CommandError(exit_code_of(reply.status), error_in(reply));
     return reply;
   } catch (const MasterUnreachable& error) {
@@ -43,7 +54,6 @@ HttpReply asked(HttpRequest request) {
     throw CommandError(ExitCode::timed_out, error.what());
   } catch (const RequestCancelled& error) {
     throw CommandError(ExitCode::interrupted, error.what());
-    if (reply.status == 503) throw MasterBusy(error_in(reply));
   } catch (const std::invalid_argument& error) {
     throw CommandError(ExitCode::usage, std::string(error.what()) + " (RAYFARM_MASTER)");
   }
@@ -54,6 +64,19 @@ json parsed(const HttpReply& reply) {
   if (!value.is_object())
     throw CommandError(ExitCode::failed, "what answers at " + master_url() + " is not a rayfarm master");
   return value;
+}
+
+/// Asks again while the master is busy.
+json get_json_patiently(const std::string& target) {
+  const auto end = Clock::now() + busy_patience;
+  for (;;) {
+    try {
+      return get_json(target);
+    } catch (const MasterBusy&) {
+      if (Clock::now() > end) throw;
+    }
+    std::this_thread::sleep_for(busy_pause);
+  }
 }
 
 }  // namespace
@@ -82,10 +105,10 @@ bool has_ended(const json& job) {
 json await_end(JobNumber id, const std::function<void(const json& job)>& news) {
   const std::string number = std::to_string(id);
   try {
-    json job = get_json(job_target(id));
+    json job = get_json_patiently(job_target(id));
     for (news(job); !has_ended(job); news(job))
-      job = get_json(job_target(id) + "?wait=" + std::to_string(news_seconds) +
-                     "&after=" + std::to_string(job.at("revision").get<std::uint64_t>()));
+      job = get_json_patiently(job_target(id) + "?wait=" + std::to_string(news_seconds) +
+                               "&after=" + std::to_string(job.at("revision").get<std::uint64_t>()));
     return job;
   } catch (const CommandError& error) {
     if (error.code != ExitCode::interrupted) throw;

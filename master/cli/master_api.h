@@ -17,8 +17,8 @@ nlohmann::json post_json(const std::string& target, const nlohmann::json& body);
 using JobNumber = std::uint64_t;
 std::string job_target(JobNumber id);
 
-/// Shows the job to news() whenever something changed, until it has ended; the job as it ended. Interrupted,
-/// it says that the job goes on.
+/// Shows the job to news() whenever something changed, until it has ended; the job as it ended. A busy
+/// master is asked again. Interrupted, it says that the job goes on.
 nlohmann::json await_end(JobNumber id, const std::function<void(const nlohmann::json& job)>& news);
 bool has_ended(const nlohmann::json& job);
 /// Throws CommandError unless the job is done.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "master/http/server.h"
@@ -141,6 +142,26 @@ TEST_F(FarmCommands, InterruptedTheySayThatTheJobGoesOn) {
   }
   EXPECT_EQ(job("1")["state"], "running");
   EXPECT_FALSE(std::filesystem::exists(folder / "out.exr"));
+}
+
+TEST_F(FarmCommands, AWaitGoesOnWhileTheMasterIsBusy) {
+  farm.add_renderer("pc1");
+  const std::string id = submit();
+  std::atomic_flag was_busy;
+  const HttpServer busy({.listen = "127.0.0.1:0"}, [&](FarmThread::Task task) {
+    if (was_busy.test_and_set()) farm.post(std::move(task));
+  });
+  environment["RAYFARM_MASTER"] = busy.url();
+  EXPECT_EQ(rayfarm({"watch", id}).exit_code, 0);
+  EXPECT_TRUE(was_busy.test());
+}
+
+TEST_F(FarmCommands, AKeyOfAnotherPictureIsNamed) {
+  submit({"--id", "homework"});
+  const ProgramResult other =
+      rayfarm({"submit", scene, "-o", folder / "out.exr", "--id", "homework", "--seed", "7"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("homework belongs to job 1"), std::string::npos) << other.err;
 }
 
 TEST_F(FarmCommands, ACancelledJobEndsTheWaitForItAndWritesNothing) {
