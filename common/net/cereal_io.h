@@ -32,7 +32,7 @@ void text(Archive& archive, std::string& value, std::size_t limit) {
     throw CodecError("a text of " + std::to_string(size) + " bytes is longer than " + std::to_string(limit));
   if constexpr (is_loading<Archive>) value.resize(size);
   archive(cereal::binary_data(value.data(), size));
-  if (!is_plain_text(value)) throw CodecError("a text holds control characters or is not UTF-8");
+  if (!is_plain_text(value)) throw CodecError("a text is not one line of UTF-8 without control characters");
 }
 
 /// An enum whose values are 0 to `last`.

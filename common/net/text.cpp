@@ -18,7 +18,8 @@ std::size_t sequence_length(std::uint8_t lead) {
 /// The smallest code point that needs a sequence of this length.
 constexpr char32_t first_of_length[] = {0, 0, 0x80, 0x800, 0x10000};
 
-bool is_control(char32_t c) { return (c < 0x20 && c != '\t' && c != '\n') || (c >= 0x7F && c < 0xA0); }
+/// The last two end lines, too.
+bool is_control(char32_t c) { return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029; }
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 
 namespace rayfarm {
 
-/// Valid UTF-8 (shortest forms, no surrogates) without control characters other than tab and newline.
+/// One line of valid UTF-8 (shortest forms, no surrogates) without control characters.
 bool is_plain_text(std::string_view text);
 
 }  // namespace rayfarm

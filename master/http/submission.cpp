@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/net/codec.h"
+#include "common/net/text.h"
 #include "master/http/settings_json.h"
 
 namespace rayfarm {
@@ -20,6 +21,8 @@ std::string text_in(const json& body, const char* name) {
   if (!value.is_string()) throw ApiError(400, std::string(name) + " must be a text");
   const std::string text = value.get<std::string>();
   if (text.size() > longest_text) throw ApiError(400, std::string(name) + " is longer than 1000 bytes");
+  if (!is_plain_text(text))  // it goes into the log
+    throw ApiError(422, std::string(name) + " must be one line of text without control characters");
   return text;
 }
 

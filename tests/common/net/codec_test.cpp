@@ -132,11 +132,11 @@ TEST(Base64, DecodesToWhatWasEncodedAndTakesNothingElse) {
     EXPECT_THROW(from_base64(bad), CodecError) << bad;
 }
 
-TEST(PlainText, IsShortestUtf8WithoutControlCharacters) {
-  for (const char* good : {"", "abc\n\tdef", "Žluťoučký kůň", "日本", "😀"})
+TEST(PlainText, IsALineOfShortestUtf8WithoutControlCharacters) {
+  for (const char* good : {"", "abc def", "Žluťoučký kůň", "日本", "😀"})
     EXPECT_TRUE(is_plain_text(good)) << good;
-  for (const char* bad : {"\x1b[31m", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xC3",
-                          "\x80", "\xC2\x85", "\x7f"})
+  for (const char* bad : {"\x1b[31m", "abc\ndef", "abc\tdef", "abc\u2028def", "\xC0\x80", "\xE0\x80\x80",
+                          "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xC3", "\x80", "\xC2\x85", "\x7f"})
     EXPECT_FALSE(is_plain_text(bad)) << bad;
 }
 

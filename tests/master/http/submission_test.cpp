@@ -48,6 +48,20 @@ TEST(Submission, WhatIsWrongIsRefused) {
   EXPECT_THROW(job_spec(json::object()), ApiError);
 }
 
+TEST(Submission, ANameIsOneLineForItGoesIntoTheLog) {
+  for (const char* name : {"name", "output", "key"})
+    for (const char* text : {"a\njob 7 (homework) cancelled", "a\tb", "\x1b[2J", "a\u2028b"}) {
+      json body = to_json(small_job());
+      body[name] = text;
+      try {
+        job_spec(body);
+        ADD_FAILURE() << name << " may be " << text;
+      } catch (const ApiError& error) {
+        EXPECT_EQ(error.status, 422u);
+      }
+    }
+}
+
 TEST(Submission, ASceneThatCannotBeRenderedIsRefusedAtTheDoor) {
   Scene scene = simple_scene();
   scene.nodes.clear();
