@@ -48,7 +48,7 @@ int run_command_line(int argc, char** argv) {
       "  rayfarm jobs\n"
       "Environment: RAYFARM_MASTER, the master's address (default http://127.0.0.1:5412).\n"
       "Exit codes: 0 done, 1 failed, 2 usage, scene or output, 3 master unreachable, 4 not allowed,\n"
-      "5 timed out, 6 version refused, 7 partly done, 130 interrupted.");
+      "5 timed out, 7 partly done, 130 interrupted.");
   Command chosen;
   add_render_command(app, chosen);
   add_submit_command(app, chosen);
