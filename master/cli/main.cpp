@@ -56,6 +56,7 @@ int run_command_line(int argc, char** argv) {
   add_fetch_command(app, chosen);
   add_worker_commands(app, chosen);
   add_stats_command(app, chosen);
+  add_map_command(app, chosen);
   add_trace_command(app, chosen);
   add_compare_command(app, chosen);
   try {

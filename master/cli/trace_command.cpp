@@ -13,6 +13,7 @@
 #include "master/diagnostics/leaf_names.h"
 #include "master/diagnostics/pixel_trace.h"
 #include "master/files/atomic_write.h"
+#include "master/files/image_file.h"
 
 namespace rayfarm {
 namespace {
@@ -62,8 +63,10 @@ std::vector<TracedSample> traced(const World& world, const RenderSettings& s, Pi
 }
 
 void check_svg(const std::string& file) {
-  if (!file.empty() && !file.ends_with(".svg"))
+  if (file.empty()) return;
+  if (!file.ends_with(".svg"))
     throw FileError("the drawing is an SVG; let the name " + file + " end in .svg");
+  check_place(file);
 }
 
 ExitCode trace(const TraceArguments& a) {

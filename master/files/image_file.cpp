@@ -47,6 +47,10 @@ std::uint8_t byte_of(float linear, PngCurve curve) {
 
 void check_writable(const std::filesystem::path& file) {
   kind_of(file);
+  check_place(file);
+}
+
+void check_place(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);

@@ -26,7 +26,9 @@ struct Picture {
 
 enum class PngCurve : std::uint8_t { gamma22, srgb };
 
-/// Throws FileError unless the name ends in .exr or .png and a file can be made there. Changes nothing.
+/// Throws FileError unless a file can be made there. Changes nothing.
+void check_place(const std::filesystem::path& file);
+/// The same, and unless the name ends in .exr or .png.
 void check_writable(const std::filesystem::path& file);
 void write_picture(const std::filesystem::path& file, const Picture& picture,
                    PngCurve curve = PngCurve::gamma22);

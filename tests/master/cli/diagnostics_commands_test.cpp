@@ -1,7 +1,10 @@
 // The commands that show how a picture came about.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "master/files/image_file.h"
 #include "tests/support/child_program.h"
@@ -76,6 +79,62 @@ TEST(Trace, WhatIsNotThereIsNamed) {
   refused({"--pixel", "1,1", "--sample", "4"}, "from 0 to 3");
   refused({"--pixel", "1,1", "--sample", "some"}, "centre");
   refused({"--pixel", "1,1", "-o", "a.png"}, ".svg");
+  refused({"--pixel", "1,1", "-o", "no_such_folder/a.svg"}, "no_such_folder");
+}
+
+/// The numbers of a CSV file's lines, without its comment.
+std::vector<std::vector<std::string>> cells_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("#")) continue;
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ';');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+TEST(MapCommand, CsvAndExrHoldTheSameNumbers) {
+  const ScratchFolder folder;
+  for (const std::string kind : {"depth", "normal", "primary-rays"}) {
+    for (const char* file : {"a.csv", "a.exr"}) {
+      const ProgramResult result =
+          run_program({"rayfarm", "map", kind, scene, "-o", folder / file, "--size", "64x48", "--spp", "4"});
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+    }
+    const std::vector<float> rgb = read_picture(folder / "a.exr").rgb;
+    const auto rows = cells_of(folder / "a.csv");
+    const std::size_t channels = kind == "normal" ? 3 : 1;
+    ASSERT_EQ(rows.size(), 48u);
+    for (std::size_t y = 0; y < 48; ++y) {
+      ASSERT_EQ(rows[y].size(), 64 * channels);
+      for (std::size_t i = 0; i < rows[y].size(); ++i)
+        ASSERT_EQ(std::stof(rows[y][i]), rgb[channels == 3 ? y * 192 + i : (y * 64 + i) * 3]);
+    }
+  }
+}
+
+TEST(MapCommand, WritesColorsAndSaysWhatTheyAre) {
+  const ScratchFolder folder;
+  const ProgramResult result = run_program({"rayfarm", "map", "all-rays", scene, "-o", folder / "a.png",
+                                            "--size", "64x48", "--spp", "4", "--compat"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Picture picture = read_picture(folder / "a.png");
+  EXPECT_EQ(picture.size, (Size{64, 48}));
+  EXPECT_EQ(picture.facts.at("rayfarm:map"), "all-rays compatible");
+}
+
+TEST(MapCommand, WhatItDoesNotKnowIsAUsageError) {
+  const ScratchFolder folder;
+  EXPECT_EQ(run_program({"rayfarm", "map", "height", scene, "-o", folder / "a.png"}).exit_code, 2);
+  EXPECT_EQ(run_program({"rayfarm", "map", "depth", scene, "-o", folder / "a.txt"}).exit_code, 2);
+  EXPECT_EQ(
+      run_program({"rayfarm", "map", "depth", scene, "-o", folder / "a.csv", "--reduce", "sum"}).exit_code,
+      2);
+  EXPECT_EQ(run_program({"rayfarm", "map", "depth", scene, "-o", (folder / "missing") / "a.csv"}).exit_code,
+            2);
+  EXPECT_EQ(folder.file_count(), 0u);
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ ProgramResult rayfarm(Words words) {
   return run_program(std::move(words), no_master);
 }
 
-const Words all_commands{"render", "submit",   "jobs",    "job",   "watch",   "fetch",   "pause", "resume",
-                         "cancel", "priority", "workers", "drain", "undrain", "compare", "stats", "trace"};
+const Words all_commands{"render",  "submit",  "jobs",   "job",      "watch",   "fetch",
+                         "pause",   "resume",  "cancel", "priority", "workers", "drain",
+                         "undrain", "compare", "stats",  "trace",    "map"};
 
 TEST(Program, HelpsWithEachCommand) {
   const ProgramResult help = rayfarm({"--help"});

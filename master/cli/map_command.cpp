@@ -1,0 +1,101 @@
+// rayfarm map: depths, normals, counts and costs, pixel by pixel.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "master/cli/commands.h"
+#include "master/cli/interrupt.h"
+#include "master/cli/picture_facts.h"
+#include "master/cli/picture_options.h"
+#include "master/cli/progress_line.h"
+#include "master/diagnostics/map.h"
+#include "master/files/atomic_write.h"
+#include "master/files/image_file.h"
+
+namespace rayfarm {
+namespace {
+
+struct MapArguments {
+  PictureOptions picture;
+  std::string kind, reduction = "majority", output;
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  bool compatible = false;
+
+  bool to_csv() const { return output.ends_with(".csv"); }
+  bool to_exr() const { return output.ends_with(".exr"); }
+};
+
+void write(const MapArguments& a, const PreparedScene& scene, const Map& map, MapKind kind) {
+  const bool one_surface =
+      kind == MapKind::depth || kind == MapKind::normal || kind == MapKind::normal_camera;
+  const std::string what =
+      a.kind + (one_surface ? " " + a.reduction : "") + (a.compatible ? " compatible" : "");
+  if (a.to_csv()) {
+    const std::string title =
+        "rayfarm map " + what + ", " + std::to_string(map.size.width) + "x" +
+        std::to_string(map.size.height) + " pixels, " + std::to_string(scene.settings.spp) +
+        " samples per pixel; a line is a row from the top" +
+        (map.channels == 3 ? "; x, y and z of a pixel are columns" : "") + "; inf: no surface";
+    const std::string text = csv(map, title);
+    write_atomically(a.output, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    return;
+  }
+  Picture picture = a.to_exr() ? raw(map) : colored(map, kind);
+  picture.facts = facts_of(scene.hash, scene.settings);
+  picture.facts["rayfarm:map"] = what;
+  write_picture(a.output, picture);
+}
+
+ExitCode make_map(const MapArguments& a) {
+  if (!a.to_csv() && !a.to_exr() && !a.output.ends_with(".png"))
+    throw FileError("cannot tell what to write from the name " + a.output +
+                    "; let it end in .png, .exr or .csv");
+  check_place(a.output);
+  note_interrupts();
+  PreparedScene scene = prepare(a.picture);
+  const World world(std::move(scene.scene));
+  const MapRequest request{*map_named(a.kind), *reduction_named(a.reduction), a.compatible};
+  std::optional<Map> map;
+  {
+    ProgressLine line;
+    map = map_of(world, scene.settings, request, a.threads, interrupted,
+                 [&](std::uint32_t done, std::uint32_t all) {
+                   line.show(static_cast<double>(done) / all, "mapping", std::nullopt);
+                 });
+  }
+  if (!map) throw CommandError(ExitCode::interrupted, "interrupted; nothing was written");
+  write(a, scene, *map, request.kind);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_map_command(CLI::App& app, Command& chosen) {
+  const auto arguments = std::make_shared<MapArguments>();
+  CLI::App* command = app.add_subcommand("map", "Write a map of what lies behind the pixels");
+  command
+      ->add_option("KIND", arguments->kind,
+                   "depth, normal, normal-camera, primary-rays, all-rays, samples or cost")
+      ->required()
+      ->check(
+          CLI::IsMember({"depth", "normal", "normal-camera", "primary-rays", "all-rays", "samples", "cost"}));
+  add_sample_options(*command, arguments->picture);
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to write: .png (colours), .exr (raw values) or .csv (raw values, a line a row)")
+      ->required();
+  command
+      ->add_option("--reduce", arguments->reduction,
+                   "How samples become a depth or normal: majority (default: the surface that most show), "
+                   "mean, closest or median")
+      ->check(CLI::IsMember({"majority", "mean", "closest", "median"}));
+  command->add_flag("--compat", arguments->compatible,
+                    "As the original renderer: all-rays without shadow rays, its formula of normal-camera");
+  command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
+      ->check(CLI::Range(1u, 1024u));
+  command->footer("Example: rayfarm map depth scenes/circus.lua -o depth.png");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return make_map(*arguments); }; });
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,213 @@
+#include "master/diagnostics/map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "common/render/pixel.h"
+#include "master/diagnostics/statistics.h"
+#include "tests/support/random_scene.h"
+
+namespace rayfarm {
+namespace {
+
+const auto never = [] { return false; };
+const auto unheard = [](std::uint32_t, std::uint32_t) {};
+
+RenderSettings small_settings(std::uint32_t spp = 16) {
+  RenderSettings s;
+  s.width = 70, s.height = 66, s.spp = spp;
+  return s;
+}
+
+Map map_by(const Scene& scene, const MapRequest& request, const RenderSettings& s = small_settings()) {
+  return *map_of(World(scene), s, request, 2, never, unheard);
+}
+
+/// Five balls of radius 1 far before a plane; the picture's edges are those of the balls. Camera at the origin.
+constexpr double plane_distance = 100;
+Scene balls_before_a_plane() {
+  Scene scene;
+  scene.nodes = {{Operation{CsgOp::unite, 6}, {}, {}, {}, {}, {}}};
+  for (int i = 0; i < 5; ++i)
+    scene.nodes.push_back(
+        {Sphere{}, Affine{glm::dmat3(1.0), {2.3 * (i - 2), 0.7 * (i % 2), 10}}, {}, {}, {}, {}});
+  const Affine facing{glm::dmat3({1, 0, 0}, {0, -1, 0}, {0, 0, -1}), {0, 0, plane_distance}};
+  scene.nodes.push_back({Plane{}, facing, {}, {}, {}, {}});
+  scene.camera = PerspectiveCamera{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 60};
+  return scene;
+}
+
+bool is_depth_of_a_surface(double depth) {
+  return (depth > 8.5 && depth < 12) || depth > plane_distance - 1e-3;
+}
+
+TEST(Map, NoReductionButTheMeanShowsADepthOfNoSurface) {
+  int mixed = 0;
+  for (const Reduction reduction :
+       {Reduction::majority, Reduction::closest, Reduction::median, Reduction::mean})
+    for (const float depth : map_by(balls_before_a_plane(), {MapKind::depth, reduction}).values) {
+      const bool right = is_depth_of_a_surface(depth);
+      if (reduction == Reduction::mean)
+        mixed += !right;
+      else
+        EXPECT_TRUE(right) << depth;
+    }
+  EXPECT_GT(mixed, 30);  // why the others are there
+}
+
+TEST(Map, WherePixelsShowNothingTheDepthIsInfinite) {
+  Scene scene = balls_before_a_plane();
+  scene.nodes.pop_back();
+  std::get<Operation>(scene.nodes[0].content).children = 5;
+  int infinite = 0;
+  for (const float depth : map_by(scene, {MapKind::depth}).values) {
+    EXPECT_TRUE(depth < 12 || std::isinf(depth)) << depth;
+    infinite += std::isinf(depth);
+  }
+  EXPECT_GT(infinite, 70 * 66 / 2);
+}
+
+TEST(Map, ANormalAtAnEdgeIsThatOfTheSurfaceThatMostSamplesShow) {
+  // The truth: the mean normal of what 64 times as many samples show of the same surface.
+  const Scene scene = balls_before_a_plane();
+  const World world(scene);
+  RenderSettings few = small_settings(64), many = small_settings(4096);
+  double error_sum = 0;
+  int edges = 0;
+  for (std::uint32_t y = 26; y < 38; ++y)
+    for (std::uint32_t x = 0; x < 70; ++x) {
+      const auto surfaces = [&](const RenderSettings& s) {
+        Tracer<CountingObserver> tracer(world, s);
+        const PixelSampler sampler(s, {x, y});
+        std::vector<SurfaceSample> hits;
+        for (std::uint32_t i = 0; i < s.spp; ++i) {
+          const Sample2D place = sampler.sample(i, 0);
+          if (const auto hit = tracer.first_hit(x + place.u, y + place.v))
+            hits.push_back(surface_sample(world.parts(), *hit));
+        }
+        return ranked_surfaces(hits);
+      };
+      const std::vector<Surface> seen = surfaces(few);
+      if (seen.size() < 2) continue;
+      for (const Surface& truth : surfaces(many)) {
+        if (truth.leaf != seen[0].leaf) continue;
+        const double cosine = std::min(1.0, dot(truth.normal, seen[0].normal));
+        error_sum += std::acos(cosine) * 180 / 3.14159265358979;
+        ++edges;
+        break;
+      }
+    }
+  EXPECT_GT(edges, 20);
+  EXPECT_LE(error_sum / edges, 1.0);  // degrees
+}
+
+TEST(Surfaces, EachSampleBelongsToOneAndTheRanksDescend) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const World world(random_snapped_scene(seed));
+    const RenderSettings s = small_settings();
+    Tracer<CountingObserver> tracer(world, s);
+    for (std::uint32_t y = 0; y < s.height; y += 3) {
+      std::vector<SurfaceSample> hits;
+      for (std::uint32_t x = 0; x < s.width; ++x)
+        if (const auto hit = tracer.first_hit(x + 0.5, y + 0.5))
+          hits.push_back(surface_sample(world.parts(), *hit));
+      std::size_t sum = 0;
+      std::uint32_t last = s.width;
+      for (const Surface& surface : ranked_surfaces(hits)) {
+        EXPECT_LE(surface.samples, last);
+        EXPECT_NEAR(length(surface.normal), 1, 1e-12);
+        last = surface.samples;
+        sum += surface.samples;
+      }
+      EXPECT_EQ(sum, hits.size());
+    }
+  }
+}
+
+TEST(Surfaces, AFaceThatComesIntoViewTwiceIsTwoSurfaces) {
+  // A torus seen from the side: its tube edge-on, and its far side from the front.
+  const SurfaceSample near_1{0, 0, 4.00, {0, 0.25, 4}, {0, 1, 0}},
+      near_2{0, 0, 4.01, {0.01, 0.25, 4.01}, {0, 1, 0}};
+  const SurfaceSample far{0, 0, 6, {0, 0.26, 6}, {0, 0, -1}};
+  const std::vector<Surface> surfaces = ranked_surfaces({far, near_2, near_1});
+  ASSERT_EQ(surfaces.size(), 2u);
+  EXPECT_EQ(surfaces[0].samples, 2u);
+  EXPECT_EQ(surfaces[1].distance, 6);
+}
+
+TEST(Surfaces, OfEquallyManyTheCloserOneIsFirst) {
+  const SurfaceSample a{0, 0, 5, {0, 0, 5}, {0, 0, -1}}, b{1, 0, 3, {0, 0, 3}, {0, 0, -1}};
+  EXPECT_EQ(ranked_surfaces({a, b})[0].leaf, 1u);
+}
+
+TEST(Map, CountsAddUpToTheStatistics) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const Scene scene = random_scene(seed);
+    const RenderSettings s = small_settings(4);
+    const RayCounters c = statistics_of(World(scene), s, 2, never, unheard)->rays;
+    const auto sum = [&](const MapRequest& request) {
+      const Map map = map_by(scene, request, s);
+      return std::accumulate(map.values.begin(), map.values.end(), 0.0);
+    };
+    EXPECT_EQ(sum({MapKind::samples}), c.primary);
+    EXPECT_EQ(sum({MapKind::primary_rays}), c.primary_hits);
+    EXPECT_EQ(sum({MapKind::all_rays}), c.primary_hits + c.secondary_hits + c.shadow);
+    EXPECT_EQ(sum({MapKind::all_rays, {}, true}), c.primary_hits + c.secondary_hits);
+    EXPECT_GT(sum({MapKind::cost}), 0);
+  }
+}
+
+TEST(Map, ANormalRelativeToTheCameraIsTheSameNormalInItsAxes) {
+  const Scene scene = random_scene(2);
+  const Map world = map_by(scene, {MapKind::normal}), camera = map_by(scene, {MapKind::normal_camera});
+  const CameraAxes axes = axes_of(CameraRays(scene.camera, {70, 66}), {70, 66});
+  for (std::size_t i = 0; i < world.values.size(); i += 3) {
+    const Vec3d n{camera.values[i], camera.values[i + 1], camera.values[i + 2]};
+    ASSERT_EQ(std::isinf(n.x), std::isinf(world.values[i]));
+    if (std::isinf(n.x)) continue;
+    const Vec3d back = axes.right * n.x + axes.up * n.y + axes.forward * n.z;
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(back[c], world.values[i + static_cast<std::size_t>(c)], 1e-6);
+  }
+}
+
+TEST(Map, IsTheSameForAnyNumberOfThreads) {
+  const World world(random_scene(5));
+  for (const MapKind kind : {MapKind::depth, MapKind::normal, MapKind::all_rays}) {
+    const Map one = *map_of(world, small_settings(4), {kind}, 1, never, unheard);
+    EXPECT_EQ(one.values, map_of(world, small_settings(4), {kind}, 5, never, unheard)->values);
+  }
+  EXPECT_FALSE(map_of(
+      world, small_settings(), {}, 2, [] { return true; }, unheard));
+}
+
+/// What the PNG will hold: 0..255.
+std::vector<int> bytes_of(const Picture& picture) {
+  std::vector<int> bytes;
+  for (const float value : picture.rgb)
+    bytes.push_back(static_cast<int>(std::lround(255 * std::pow(value, 1 / 2.2))));
+  return bytes;
+}
+
+TEST(MapColors, AreTheOriginals) {
+  const float inf = std::numeric_limits<float>::infinity();
+  const Size row{3, 1};
+  EXPECT_EQ(bytes_of(colored({row, 1, {2, 6, 10}}, MapKind::all_rays)),
+            (std::vector<int>{0, 0, 255, 0, 255, 0, 255, 0, 0}));
+  EXPECT_EQ(bytes_of(colored({row, 1, {7, 7, 7}}, MapKind::samples)),
+            (std::vector<int>{255, 0, 0, 255, 0, 0, 255, 0, 0}));
+  EXPECT_EQ(bytes_of(colored({row, 1, {1, 10, inf}}, MapKind::depth)),
+            (std::vector<int>{255, 255, 255, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(bytes_of(colored({row, 3, {0, 0, -1, 1, 0, 0, inf, inf, inf}}, MapKind::normal)),
+            (std::vector<int>{127, 127, 255, 254, 127, 128, 0, 0, 0}));
+}
+
+TEST(MapCsv, HasALineForEachRow) {
+  const float inf = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(csv({{2, 2}, 1, {1, 2.5, inf, 0.1f}}, "depth"), "# depth\n1;2.5\ninf;0.1\n");
+  EXPECT_EQ(csv({{2, 1}, 3, {1, 2, 3, inf, inf, inf}}, "normal"), "# normal\n1;2;3;inf;inf;inf\n");
+}
+
+}  // namespace
+}  // namespace rayfarm
