@@ -32,7 +32,7 @@ struct ScriptRequest {
   std::string name;  // for messages: the file's name
   std::string text;
   std::map<std::string, std::string> params;  // -p key=value
-  std::uint32_t frame = 0;                    // time = animation.start + frame / fps
+  std::uint32_t frame = 0;                    // time = animation.start + frame / fps, at most animation.stop
 };
 
 struct ScriptResult {

@@ -134,6 +134,19 @@ TEST(Language, TimeIsThatOfTheFrame) {
             0);
 }
 
+TEST(Language, AFrameAfterTheAnimationsLastOneIsRefused) {
+  const auto frame = [](std::uint32_t number) {
+    return run("return scene{ root = sphere{}, animation = { stop = 0.29, fps = 100 } }", {}, number);
+  };
+  EXPECT_NO_THROW(frame(29));
+  try {
+    frame(30);
+    ADD_FAILURE() << "there is no frame 30";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("last frame is 29"), std::string::npos) << error.what();
+  }
+}
+
 // Parameters. -----------------------------------------------------------------------------------------------
 
 const char* const declaration = R"(
