@@ -2,7 +2,7 @@
 //
 // At an edge the mean of two surfaces' depths is the depth of no surface. So the samples are told apart by what
 // they hit. Source of the idea: J. Friedman and A. C. Jones, Fully Automatic ID Mattes with Support for Motion
-// Blur and Transparency (Cryptomatte), SIGGRAPH Talks 2015.
+// Blur and Transparency (Cryptomatte), SIGGRAPH Posters 2015.
 #pragma once
 #include <optional>
 #include <vector>
