@@ -103,9 +103,12 @@ asio::awaitable<void> Sessions::keep_dialled(DialTarget target) {
   asio::steady_timer timer(io_);
   std::string last_fault;
   while (!stopping_) {
+    const auto begun = std::chrono::steady_clock::now();
     auto attempt = try_target(target);
     const std::string fault = co_await std::move(attempt);
-    if (fault.empty()) backoff.reset();
+    // One that ends sooner is no success: a worker that lies at once is not dialled without pause.
+    const bool lasted = std::chrono::steady_clock::now() - begun > times_.backoff.longest;
+    if (fault.empty() && lasted) backoff.reset();
     if (!fault.empty() && fault != last_fault)
       spdlog::warn("worker \"{}\": {}; trying again", target.name, fault);
     last_fault = fault;

@@ -102,6 +102,7 @@ asio::awaitable<void> Worker::talk(tcp::socket socket) {
   const auto session =
       std::make_shared<WorkerSession>(std::move(socket), options_.identity, crew_, options_.times);
   session_ = session;
+  const auto begun = std::chrono::steady_clock::now();
   if (stopping_) session->stop();
   std::string loss;
   try {
@@ -109,7 +110,9 @@ asio::awaitable<void> Worker::talk(tcp::socket socket) {
   } catch (const std::exception& error) {
     loss = error.what();
   }
-  if (session->was_welcomed()) {
+  // One that ends sooner is no success: a master that throws us out at once is not dialled without pause.
+  const bool lasted = std::chrono::steady_clock::now() - begun > options_.backoff.longest;
+  if (session->was_welcomed() && lasted) {
     backoff_.reset();
     last_loss_.clear();
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "tests/support/framed_socket.h"
 #include "tests/support/simple_job.h"
 #include "tests/support/worker_thread.h"
@@ -74,6 +76,17 @@ TEST(Worker, ComesBackAfterARefusalAGoodbyeAndGarbage) {
   MasterAtDoor(door).send_bytes(Bytes(1000, 'x'));
   MasterAtDoor(door).send(JobEnd{JobId{1}});  // before Welcome
   MasterAtDoor(door).welcome();
+}
+
+// Only a lower bound of time is checked: a busy PC cannot break it.
+TEST(Worker, WaitsLongerEachTimeForAMasterThatThrowsItOut) {
+  Door door;
+  WorkerOptions options = worker_for(door.address(), "lab7");
+  options.backoff = {40ms, 60s};
+  WorkerThread worker(options, prepare_positions);
+  const auto begun = std::chrono::steady_clock::now();
+  for (int time = 0; time < 5; ++time) MasterAtDoor(door).welcome();
+  EXPECT_GE(std::chrono::steady_clock::now() - begun, 300ms) << "half of 40, 80, 160 and 320 ms";
 }
 
 TEST(Worker, LeavesASilentMaster) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "tests/support/farm_jobs.h"
 #include "tests/support/framed_socket.h"
 #include "tests/support/master_thread.h"
@@ -131,6 +133,24 @@ TEST(Sessions, EndWithAWorkerThatLies) {
     master.wait_for_workers(0);
   }
   EXPECT_EQ(master.ask([&](Farm& farm, FarmTime now) { return farm.job(job, now); })->pixels_done, 0u);
+}
+
+// Only a lower bound of time is checked: a busy PC cannot break it.
+TEST(Sessions, WaitLongerEachTimeForADialledWorkerThatIsThrownOut) {
+  MasterThread master(DoorTimes{{100ms, 60s, 60s}, {40ms, 60s}});
+  asio::io_context io;
+  asio::ip::tcp::acceptor door(io, {asio::ip::address_v4::loopback(), 0});
+  const auto begun = std::chrono::steady_clock::now();
+  master.dial({"liar", {"127.0.0.1", door.local_endpoint().port()}});
+  for (int time = 0; time < 5; ++time) {
+    WorkerByHand liar;
+    liar.accept(door);
+    liar.send(hello_from("liar"));
+    EXPECT_EQ(liar.receive_a<Welcome>().name, "liar");
+    liar.send(hello_from("again"));
+    liar.wait_for_end();
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - begun, 300ms) << "half of 40, 80, 160 and 320 ms";
 }
 
 TEST(Sessions, SayGoodbyeToAllWhenTheMasterStops) {
