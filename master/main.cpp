@@ -69,7 +69,8 @@ void serve(const Arguments& arguments) {
   std::optional<StateFolder> state;
   if (!arguments.state.empty()) state.emplace(arguments.state);
 
-  asio::io_context io;
+  // Never destroyed: that would wait for names that are still being looked up, and hold up a clean stop.
+  static auto& io = *new asio::io_context;
   LiveFarm farm;
   Sessions sessions(io, farm, parse_address(arguments.listen, default_farm_port),
                     arguments.insecure ? Exposure::insecure : Exposure::loopback_only);

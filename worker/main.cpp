@@ -58,7 +58,8 @@ WorkerOptions options_of(const Arguments& arguments) {
 
 /// Returns after a clean stop; throws what kept the worker from working.
 void serve(WorkerOptions options) {
-  asio::io_context io;
+  // Never destroyed: that would wait for a name that is still being looked up, and hold up a clean stop.
+  static auto& io = *new asio::io_context;
   Worker worker(io, std::move(options));
   if (const auto address = worker.listening_at())
     std::cout << "rayfarm-worker: listens at " << text_of(*address) << std::endl;
