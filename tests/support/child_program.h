@@ -1,7 +1,9 @@
-// One of our programs as a child process, its output caught.
+// One of our programs as a child process, its output caught. It ends with the test at the latest, also when that
+// is killed.
 #pragma once
 #include <sys/types.h>
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,22 +18,24 @@ struct ProgramResult {
 class ChildProgram {
  public:
   /// `words`: program and arguments; a program without a slash lies beside the test. The environment is the
-  /// test's with these changes.
+  /// test's with these changes. stderr goes to the end of `log`; it is caught when there is none.
   explicit ChildProgram(std::vector<std::string> words,
-                        const std::map<std::string, std::string>& environment = {});
+                        const std::map<std::string, std::string>& environment = {},
+                        const std::filesystem::path& log = {});
   ~ChildProgram();  // kills what still runs
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
-  /// Waits for one line of stdout; empty when it ended without.
+  pid_t pid() const { return pid_; }
+  /// Waits for one line of stdout; empty when it ended without, or none came for two minutes.
   std::string next_line();
   void send_signal(int signal);
-  /// Waits for its end; `out` lacks the lines already taken.
+  /// Waits for its end, and ends it itself after two minutes; `out` lacks the lines already taken.
   ProgramResult result();
 
  private:
   pid_t pid_ = -1;
-  int out_ = -1, err_ = -1;
+  int out_ = -1, err_ = -1;  // the latter only when stderr is caught
 };
 
 inline ProgramResult run_program(std::vector<std::string> words,
