@@ -217,8 +217,9 @@ TEST(Connection, EndsWhenAMessageCannotBeSent) {
   Sockets s;
   WorkerConnection connection(std::move(s.ours), patient);
   connection.post(Goodbye{"\a"});
-  EXPECT_EQ(s.run(connection.tend()),
-            "it was to be sent what cannot be sent: a text holds control characters or is not UTF-8");
+  EXPECT_EQ(
+      s.run(connection.tend()),
+      "it was to be sent what cannot be sent: a text is not one line of UTF-8 without control characters");
 }
 
 asio::awaitable<void> try_to_dial(Address address, Exposure exposure) {
