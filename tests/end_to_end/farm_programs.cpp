@@ -127,7 +127,7 @@ std::uint32_t FarmPrograms::leases_of(const std::string& name) const {
 }
 
 FarmPrograms::Deadline::Deadline(std::string what)
-    : what_(std::move(what)), end_(std::chrono::steady_clock::now() + std::chrono::minutes(1)) {}
+    : what_(std::move(what)), end_(std::chrono::steady_clock::now() + std::chrono::minutes(2)) {}
 
 void FarmPrograms::Deadline::pause() const {
   if (std::chrono::steady_clock::now() > end_) throw std::runtime_error("in vain waited for this: " + what_);

@@ -29,7 +29,7 @@ struct Renderer {
 
 }  // namespace
 
-FarmThread::FarmThread() : thread_([this] { work(); }) {}
+FarmThread::FarmThread(FarmLimits limits) : farm_(limits), thread_([this] { work(); }) {}
 
 FarmThread::~FarmThread() {
   {

@@ -15,7 +15,7 @@ class FarmThread {
  public:
   using Task = std::function<void(Farm&, FarmTime)>;
 
-  FarmThread();
+  explicit FarmThread(FarmLimits limits = {});
   ~FarmThread();  // tasks that have not begun are dropped
   FarmThread(const FarmThread&) = delete;
   FarmThread& operator=(const FarmThread&) = delete;

@@ -29,7 +29,7 @@ class FilmSnapshot : public testing::Test {
     return film;
   }
 
-  FarmThread farm;
+  FarmThread farm{FarmLimits{.film_bytes = 100'000}};  // one small film
   FarmDoor door{[this](FarmThread::Task task) { farm.post(std::move(task)); }};
 };
 
@@ -52,6 +52,19 @@ TEST_F(FilmSnapshot, OfACompleteFilmIsTheFilmItself) {
   farm.add_renderer("pc1");
   while (!film(id)->is_complete()) std::this_thread::yield();
   EXPECT_EQ(film_snapshot(door, id), film(id));
+}
+
+TEST_F(FilmSnapshot, OfAnOldJobIsGone) {
+  const JobId old = submit(96, 80), next = submit(96, 80);
+  farm.add_renderer("pc1");
+  while (!film(next) || !film(next)->is_complete()) std::this_thread::yield();
+  try {
+    film_snapshot(door, old);
+    FAIL();
+  } catch (const ApiError& error) {
+    EXPECT_EQ(error.status, 410u);
+    EXPECT_STREQ(error.what(), "the picture of job 1 is no longer kept; submit it again");
+  }
 }
 
 TEST_F(FilmSnapshot, WithoutAFilmIsAnError) {
