@@ -11,7 +11,6 @@ Vec3d row_of(const glm::dmat3& m, int row) { return {m[0][row], m[1][row], m[2][
 double row_sum(const glm::dmat3& m, int row) {
   return std::fabs(m[0][row]) + std::fabs(m[1][row]) + std::fabs(m[2][row]);
 }
-Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 glm::dmat3 adjugate(const glm::dmat3& m) {
   return glm::transpose(glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])));

@@ -3,7 +3,12 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "common/math/vec.h"
+
 namespace rayfarm {
+
+/// A scene's vector as the geometry has it.
+inline Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 struct Affine {
   glm::dmat3 linear{1.0};  // column vectors: p' = linear * p + offset

@@ -99,8 +99,6 @@ class Tracer {
  private:
   static constexpr int rays_between_questions = 256;
 
-  static Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
   template <class LightPoint>
   void place_lights(LightPoint&& light_point) {
     lights_.clear();

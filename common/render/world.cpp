@@ -5,8 +5,6 @@
 namespace rayfarm {
 namespace {
 
-Vec3d vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 /// What a subtree inherits.
 struct Inherited {
   BoundedAffine world_from_parent;
