@@ -5,7 +5,7 @@ set -uo pipefail
 top=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 build=$top/build/tests
 
-"$top/deploy/setup.sh" || exit 1
+"$top/deploy/setup.sh" tests || exit 1
 "$top/deploy/build.sh" "$build" -DRAYFARM_WERROR=ON || { echo "tests/run.sh: FAILED, it does not build"; exit 1; }
 
 ctest --test-dir "$build" -j "$(nproc)" --output-on-failure 2>&1 | tee "$build/ctest.log"

@@ -1,0 +1,9 @@
+import { PictureArea } from "../picture/PictureArea";
+
+export function App() {
+  return (
+    <main>
+      <PictureArea />
+    </main>
+  );
+}

@@ -1,0 +1,4 @@
+/// The picture of the selected job with its maps, history and comparison.
+export function PictureArea() {
+  return <section aria-label="Picture" />;
+}
