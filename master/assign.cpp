@@ -110,8 +110,11 @@ void Farm::State::revoke_everywhere(JobId job) {
 void Farm::State::end(Job& job, JobState state, FarmTime now) {
   job.state = state;
   job.ended = now;
-  job.spec.scene_bytes.reset();
-  if (state != JobState::done) job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
+  --scenes.at(job.spec.scene_hash).unfinished_jobs;
+  if (state != JobState::done) {
+    job.spec.scene_bytes.reset();
+    job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
+  }
   ++revision;
   update_queue(job);
   for (auto& [id, worker] : workers) forget(worker, job.id);

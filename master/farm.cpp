@@ -195,6 +195,24 @@ std::shared_ptr<const Film> Farm::film(JobId id) const {
   return job->second.canvas->film;
 }
 
+std::optional<Deliveries> Farm::deliveries(JobId id) const {
+  const auto job = state_->jobs.find(id);
+  if (job == state_->jobs.end() || !job->second.canvas) return std::nullopt;
+  const Canvas& canvas = *job->second.canvas;
+  Deliveries all;
+  all.tiles.reserve(canvas.deliveries.size());
+  for (const auto& [by, taken] : canvas.deliveries)
+    all.tiles.push_back({by, taken, canvas.film->passes_of(static_cast<std::uint32_t>(all.tiles.size()))});
+  for (const NameId name : canvas.deliverers)
+    all.names.push_back(state_->names[static_cast<std::size_t>(name)]);
+  return all;
+}
+
+SharedBytes Farm::scene(JobId id) const {
+  const auto job = state_->jobs.find(id);
+  return job == state_->jobs.end() ? nullptr : job->second.spec.scene_bytes;
+}
+
 std::uint64_t Farm::revision() const { return state_->revision; }
 
 std::vector<FarmEvent> Farm::take_events() { return std::exchange(state_->events, {}); }

@@ -11,10 +11,12 @@
 // thread and two more, and beyond that as many as keep it busy for 250 ms by its learned speed.
 //
 // Memory: a job costs its scene, which jobs of the same hash share; from its first assignment also 12 bytes a
-// pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 26 bytes a tile. An ended job drops
-// its scene and keeps its film, which is fetched later, as long as FarmLimits say. Of all workers that there
-// were, the first 10,000 names are kept, to say whose pixels they are.
+// pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 34 bytes a tile. An ended job keeps its
+// film, which is fetched later, and one that is done also its scene, which says how the picture came about, as
+// long as FarmLimits say. Of all workers that there were, the first 10,000 names are kept, to say whose pixels
+// they are.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -56,10 +58,10 @@ struct JobSpec {
   std::string key;    // submit --id: the same key gives the same job again until that fails; empty: none
 };
 
-/// What of ended jobs is kept; those that ended first go first. A job that loses its film loses its key, too.
-/// And how much may be unfinished: beyond that, nothing is taken in.
+/// What of ended jobs is kept; those that ended first go first. A job that loses its film loses its scene and
+/// its key, too. And how much may be unfinished: beyond that, nothing is taken in.
 struct FarmLimits {
-  std::uint64_t film_bytes = std::uint64_t{2} << 30;  // all films; the newest stays, however big
+  std::uint64_t film_bytes = std::uint64_t{2} << 30;  // all films and scenes; the newest stay, however big
   std::size_t jobs = 1000;                            // at least 1; the others are as if they had never been
   std::size_t unfinished_jobs = 10'000;
   std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished jobs, each scene once
@@ -75,9 +77,22 @@ struct JobView {
   RenderSettings settings;
   std::uint64_t pixels_done = 0, pixels_total = 0;
   RayCounters counters;                // of committed passes
-  FarmTime submitted{}, elapsed{};     // elapsed: wall time since the first assignment, until it ended
+  FarmTime submitted{}, waited{};      // waited: from then to the first assignment, or to its end without one
+  FarmTime elapsed{};                  // wall time since the first assignment, until it ended
+  FarmTime thread_time{};              // that its deliveries took, each on one thread
   std::optional<FarmTime> eta;         // remaining; none before there is something to learn from
   std::uint64_t tiles_given_back = 0;  // leases that ended without a result
+};
+
+/// Who delivered a picture's pixels, and what they took.
+struct Deliveries {
+  struct Tile {
+    std::array<std::uint32_t, pass_count> by{};  // of the passes that are there: places in names
+    FarmTime taken{};                            // by all of them, each on one thread
+    PassSet passes = 0;                          // that are there
+  };
+  std::vector<Tile> tiles;         // by tile number
+  std::vector<std::string> names;  // of workers; grows at its end only
 };
 
 enum class WorkerState : std::uint8_t { idle, busy, drained };
@@ -152,6 +167,11 @@ class Farm {
   /// The film of a job; null when there is no such job, nothing of it was assigned yet, or it is no longer
   /// kept. Grows while the job runs.
   std::shared_ptr<const Film> film(JobId id) const;
+  /// None when there is no film.
+  std::optional<Deliveries> deliveries(JobId id) const;
+  /// The encoded scene of a job that goes on or is done; null when there is no such job, it was cancelled or
+  /// failed, or its film is no longer kept.
+  SharedBytes scene(JobId id) const;
   /// Grows with every change of a job: to wait for news.
   std::uint64_t revision() const;
 

@@ -44,17 +44,20 @@ void Farm::State::take_in_scene(JobSpec& spec) {
   if (jobs.size() - ended_jobs.size() >= limits.unfinished_jobs)
     throw SettingsError("the farm holds " + std::to_string(limits.unfinished_jobs) +
                         " unfinished jobs, and takes no more: wait for some to end, or cancel them");
-  std::erase_if(scenes, [](const auto& scene) { return scene.second.expired(); });
-  if (const auto known = scenes.find(spec.scene_hash); known != scenes.end()) {
-    spec.scene_bytes = known->second.lock();
-    return;
-  }
+  std::erase_if(scenes, [](const auto& scene) { return scene.second.bytes.expired(); });
+  const auto known = scenes.find(spec.scene_hash);
+  if (known != scenes.end()) spec.scene_bytes = known->second.bytes.lock();
+
   std::uint64_t bytes = spec.scene_bytes->size();
-  for (const auto& [hash, scene] : scenes) bytes += scene.lock()->size();
-  if (bytes > limits.scene_bytes)
+  for (const auto& [hash, scene] : scenes)
+    if (scene.unfinished_jobs > 0 && hash != spec.scene_hash) bytes += scene.bytes.lock()->size();
+  const bool is_new = known == scenes.end() || known->second.unfinished_jobs == 0;
+  if (is_new && bytes > limits.scene_bytes)
     throw SettingsError("the scenes of unfinished jobs would take " + std::to_string(bytes) + " bytes, of " +
                         std::to_string(limits.scene_bytes) + ": wait for some to end, or cancel them");
-  scenes[spec.scene_hash] = spec.scene_bytes;
+  SharedScene& scene = scenes[spec.scene_hash];
+  scene.bytes = spec.scene_bytes;
+  ++scene.unfinished_jobs;
 }
 
 void Farm::State::drop_old_jobs() {
@@ -67,13 +70,17 @@ void Farm::State::drop_old_jobs() {
 
 void Farm::State::drop_old_films() {
   std::uint64_t kept = 0;
+  std::set<std::string_view> scenes_kept;  // hashes
   for (auto id = ended_jobs.rbegin(); id != ended_jobs.rend(); ++id) {
     Job& job = jobs.at(*id);
     if (!job.canvas) continue;
     const bool is_newest = kept == 0;
     kept += film_bytes(job);
+    if (job.spec.scene_bytes && scenes_kept.insert(job.spec.scene_hash).second)
+      kept += job.spec.scene_bytes->size();
     if (is_newest || kept <= limits.film_bytes) continue;
     job.canvas.reset();
+    job.spec.scene_bytes.reset();
     job_by_key.erase(std::exchange(job.spec.key, {}));
     job.message += (job.message.empty() ? "" : "; ") + std::string("its picture is no longer kept");
     ++revision;

@@ -19,7 +19,12 @@ struct Farm::State {
   std::map<JobId, Job> jobs;
   std::deque<JobId> ended_jobs;  // all of them, in the order of their ends
   std::map<std::string, JobId> job_by_key;
-  std::map<std::string, SharedBytes::weak_type> scenes;  // by hash; of unfinished jobs
+  /// One that jobs share.
+  struct SharedScene {
+    SharedBytes::weak_type bytes;
+    std::size_t unfinished_jobs = 0;
+  };
+  std::map<std::string, SharedScene> scenes;  // by hash
   std::map<WorkerId, Worker> workers;
   std::set<std::string, std::less<>> drained_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those too many.

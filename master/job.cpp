@@ -1,8 +1,20 @@
 #include "master/job.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace rayfarm {
+
+namespace {
+
+std::uint32_t place_of(NameId name, std::vector<NameId>& names) {
+  const auto known = std::ranges::find(names, name);
+  const auto place = static_cast<std::uint32_t>(known - names.begin());
+  if (known == names.end()) names.push_back(name);
+  return place;
+}
+
+}  // namespace
 
 Size size_of(const RenderSettings& settings) { return {settings.width, settings.height}; }
 
@@ -41,6 +53,8 @@ JobView view_of(const Job& job, FarmTime now) {
   view.pixels_total = std::uint64_t{spec.settings.width} * spec.settings.height;
   view.counters = job.counters;
   view.submitted = job.submitted;
+  view.waited = job.started.value_or(job.ended.value_or(now)) - job.submitted;
+  view.thread_time = job.thread_time;
   if (job.started) view.elapsed = job.ended.value_or(now) - *job.started;
   if (job.state == JobState::running) view.eta = job.pace.time_for(view.pixels_total - view.pixels_done, now);
   view.tiles_given_back = job.tiles_given_back;
@@ -65,14 +79,19 @@ std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size f
   return std::nullopt;
 }
 
-void commit(Job& job, const Work& work, const std::vector<PassImage>& images, NameId by, FarmTime now) {
-  for (const PassImage& image : images) {
-    job.canvas->film->put(work.tile, image);
-    job.canvas->delivered_by[work.tile][image.pass] = by;
+void commit(Job& job, const Delivery& delivery, FarmTime now) {
+  Canvas& canvas = *job.canvas;
+  Canvas::TileDeliveries& tile = canvas.deliveries[delivery.work.tile];
+  const std::uint32_t by = place_of(delivery.by, canvas.deliverers);
+  for (const PassImage& image : delivery.images) {
+    canvas.film->put(delivery.work.tile, image);
+    tile.by[image.pass] = by;
     job.counters += image.counters;
   }
-  job.pixels_done = job.canvas->film->pixels_done();
-  job.canvas->schedule.finish(work);
+  tile.taken += delivery.taken;
+  job.thread_time += delivery.taken;
+  job.pixels_done = canvas.film->pixels_done();
+  canvas.schedule.finish(delivery.work);
   job.pace.advance(now, job.pixels_done);
 }
 
@@ -83,7 +102,7 @@ std::optional<NameId> contradicted(const Job& job, std::uint32_t tile, const std
     const std::vector<float> committed = canvas.film->pass_pixels(tile, image.pass);
     // Bytes, not numbers: -0 and 0 differ, a NaN equals itself.
     if (std::memcmp(committed.data(), image.rgb.data(), committed.size() * sizeof(float)) != 0)
-      return canvas.delivered_by[tile][image.pass];
+      return canvas.deliverers[canvas.deliveries[tile].by[image.pass]];
   }
   return std::nullopt;
 }

@@ -19,11 +19,18 @@ enum class NameId : std::uint32_t {};
 /// The big part of a job, made at its first assignment.
 struct Canvas {
   explicit Canvas(Size size)
-      : film(std::make_shared<Film>(size)), schedule(size), delivered_by(tile_count(size)) {}
+      : film(std::make_shared<Film>(size)), schedule(size), deliveries(tile_count(size)) {}
+
+  /// A tile's passes that are there: whom they came from, and the thread time of all of them.
+  struct TileDeliveries {
+    std::array<std::uint32_t, pass_count> by{};  // places in `deliverers`
+    FarmTime taken{};
+  };
 
   std::shared_ptr<Film> film;
   Schedule schedule;
-  std::vector<std::array<NameId, pass_count>> delivered_by;  // by tile and pass; of those that are there
+  std::vector<TileDeliveries> deliveries;  // by tile
+  std::vector<NameId> deliverers;          // in the order of their first deliveries
 };
 
 struct Job {
@@ -34,6 +41,7 @@ struct Job {
   std::optional<Canvas> canvas;
   std::uint64_t pixels_done = 0;  // as the film says while there is one
   RayCounters counters;
+  FarmTime thread_time{};
   Pace pace;
   FarmTime submitted{};
   std::optional<FarmTime> started, ended;
@@ -54,8 +62,15 @@ JobView view_of(const Job& job, FarmTime now);
 
 /// Why the images are not those that the work asks for; nothing when they are.
 std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size film, const Work& work);
-/// Takes the images of a lease's work into the film. They must be without fault.
-void commit(Job& job, const Work& work, const std::vector<PassImage>& images, NameId by, FarmTime now);
+/// What a lease's work gave, without fault: by whom, and in how much thread time.
+struct Delivery {
+  const Work& work;
+  const std::vector<PassImage>& images;
+  NameId by{};
+  FarmTime taken{};
+};
+/// Takes it into the film.
+void commit(Job& job, const Delivery& delivery, FarmTime now);
 /// Who delivered other pixels than these, if anybody did. Passes not there yet are not compared.
 std::optional<NameId> contradicted(const Job& job, std::uint32_t tile, const std::vector<PassImage>& images);
 

@@ -50,8 +50,9 @@ void Farm::receive(WorkerId id, Result result, FarmTime now) {
 
 void Farm::State::deliver(Worker& worker, const Lease& lease, const Result& result, FarmTime now) {
   Job& job = jobs.at(lease.job);
-  commit(job, lease.work, result.images, worker.name, now);
-  learn_speed(worker, lease, result.seconds, now);
+  const FarmTime taken = believed_time(lease, result.seconds, now);
+  commit(job, {lease.work, result.images, worker.name, taken}, now);
+  learn_speed(worker, lease, taken);
   ++worker.tiles;
   worker.pixels += lease.samples / job.spec.settings.spp;
   ++revision;

@@ -73,10 +73,13 @@ Lease take_lease(Worker& worker, LeaseId id) {
   return lease;
 }
 
-void learn_speed(Worker& worker, const Lease& lease, double seconds, FarmTime now) {
+FarmTime believed_time(const Lease& lease, double seconds, FarmTime now) {
   const double longest = std::chrono::duration<double>(now - lease.given).count();
   const double believed = seconds > 0 ? std::min(seconds, longest) : 0;  // not of a NaN, either
-  const auto taken = std::chrono::duration_cast<FarmTime>(std::chrono::duration<double>(believed));
+  return std::chrono::duration_cast<FarmTime>(std::chrono::duration<double>(believed));
+}
+
+void learn_speed(Worker& worker, const Lease& lease, FarmTime taken) {
   worker.speed.add(lease.samples, taken);
   if (const auto known = worker.jobs.find(lease.job); known != worker.jobs.end())
     known->second.speed.add(lease.samples, taken);

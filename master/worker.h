@@ -58,7 +58,9 @@ void forget(Worker& worker, JobId job);
 void assign(Worker& worker, LeaseId id, const Lease& lease);
 /// Takes a lease that the worker holds away from it, silently.
 Lease take_lease(Worker& worker, LeaseId id);
-/// What a delivery says about the worker's speed. No thread works longer than its lease is old.
-void learn_speed(Worker& worker, const Lease& lease, double seconds, FarmTime now);
+/// Of the seconds that a worker says its thread took: no thread works longer than its lease is old.
+FarmTime believed_time(const Lease& lease, double seconds, FarmTime now);
+/// What a delivery says about the worker's speed.
+void learn_speed(Worker& worker, const Lease& lease, FarmTime taken);
 
 }  // namespace rayfarm

@@ -9,7 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Size one_tile{64, 64};
-constexpr std::uint64_t one_film = 64 * 64 * 12;
+constexpr std::uint64_t one_film = 64 * 64 * 12, one_scene = 3;
 
 WorkerInfo pc() { return {.name = "pc", .threads = 2}; }
 
@@ -20,7 +20,7 @@ JobId done_job(Farm& farm, FakeWorker& worker, Size size = one_tile) {
 }
 
 TEST(EndedJobs, KeepTheirFilmsWithinTheBudgetTheNewestFirst) {
-  Farm farm({.film_bytes = 2 * one_film});
+  Farm farm({.film_bytes = 2 * one_film + one_scene});
   FakeWorker worker(farm, pc());
   for (int i = 0; i < 5; ++i) done_job(farm, worker);
   for (const JobView& job : farm.jobs(0s)) {
@@ -111,16 +111,53 @@ TEST(EndedJobs, FreeTheirKeysWithTheirPictures) {
   EXPECT_NE(farm.submit(keyed, 0s), job);
 }
 
-TEST(EndedJobs, DropTheirScenes) {
+/// Whether anybody still has the job's scene.
+struct WatchedScene {
+  std::weak_ptr<const std::vector<std::uint8_t>> bytes;
+
+  JobId submit_to(Farm& farm, std::string hash = "watched") {
+    JobSpec spec = job_of(one_tile, "picture", std::move(hash));
+    bytes = spec.scene_bytes;
+    return farm.submit(std::move(spec), 0s);
+  }
+};
+
+TEST(EndedJobs, KeepTheirScenesWhenTheyAreDoneAsLongAsTheirFilms) {
+  Farm farm({.film_bytes = one_film + one_scene});
+  FakeWorker worker(farm, pc());
+  WatchedScene scene;
+  const JobId job = scene.submit_to(farm);
+  EXPECT_EQ(farm.scene(job), scene.bytes.lock());
+  worker.finish_all();
+  EXPECT_NE(farm.scene(job), nullptr);
+  done_job(farm, worker);
+  worker.take_messages();
+  EXPECT_EQ(farm.film(job), nullptr);
+  EXPECT_EQ(farm.scene(job), nullptr);
+  EXPECT_TRUE(scene.bytes.expired());
+}
+
+TEST(EndedJobs, DropTheirScenesWhenTheyAreNotDone) {
   Farm farm;
   FakeWorker worker(farm, pc());
-  JobSpec spec = job_of(one_tile);
-  const std::weak_ptr<const std::vector<std::uint8_t>> scene = spec.scene_bytes;
-  farm.submit(std::move(spec), 0s);
-  EXPECT_FALSE(scene.expired());
-  worker.finish_all();
+  WatchedScene cancelled, failed;
+  const JobId first = cancelled.submit_to(farm, "cancelled");
+  farm.cancel(first, 0s);
+  const JobId second = failed.submit_to(farm, "failed");
+  farm.receive(worker.id(), GiveBack{{worker.held().at(0).lease}, "too big"}, 0s);
+  EXPECT_EQ(farm.job(second, 0s)->state, JobState::failed);
   worker.take_messages();
-  EXPECT_TRUE(scene.expired());
+  for (const JobId job : {first, second}) EXPECT_EQ(farm.scene(job), nullptr);
+  EXPECT_TRUE(cancelled.bytes.expired());
+  EXPECT_TRUE(failed.bytes.expired());
+}
+
+TEST(EndedJobs, PayForASharedSceneOnce) {
+  Farm farm({.film_bytes = 3 * one_film + one_scene});
+  FakeWorker worker(farm, pc());
+  const JobId first = done_job(farm, worker);
+  done_job(farm, worker), done_job(farm, worker);
+  EXPECT_NE(farm.film(first), nullptr);
 }
 
 TEST(UnfinishedJobs, ShareTheBytesOfTheirScene) {
@@ -143,6 +180,19 @@ TEST(UnfinishedJobs, AreBoundedInNumberAndInTheBytesOfTheirScenes) {
     farm.cancel(b, 0s);
     EXPECT_NO_THROW(farm.submit(c, 0s));
   }
+}
+
+TEST(UnfinishedJobs, AreNotHinderedByTheScenesOfThoseThatAreDone) {
+  Farm farm({.scene_bytes = one_scene});
+  FakeWorker worker(farm, pc());
+  const JobId done = farm.submit(job_of(one_tile, "a", "scene a"), 0s);
+  worker.finish_all();
+  farm.submit(job_of({640, 640}, "b", "scene b"), 0s);
+  EXPECT_THROW(farm.submit(job_of(one_tile, "c", "scene a"), 0s), SettingsError) << "b goes on";
+  EXPECT_NO_THROW(farm.submit(job_of(one_tile, "d", "scene b"), 0s));
+  worker.finish_all();
+  const JobId again = farm.submit(job_of(one_tile, "e", "scene a"), 0s);
+  EXPECT_EQ(farm.scene(again), farm.scene(done));
 }
 
 // An honest worker's result may be under way while other jobs end.
