@@ -9,7 +9,7 @@
 #include "master/cli/picture_facts.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/progress_line.h"
-#include "master/diagnostics/map.h"
+#include "master/diagnostics/map_picture.h"
 #include "master/files/atomic_write.h"
 #include "master/files/image_file.h"
 
@@ -26,36 +26,50 @@ struct MapArguments {
   bool to_exr() const { return output.ends_with(".exr"); }
 };
 
-void write(const MapArguments& a, const PreparedScene& scene, const Map& map, MapKind kind) {
-  const bool one_surface =
-      kind == MapKind::depth || kind == MapKind::normal || kind == MapKind::normal_camera;
-  const std::string what =
-      a.kind + (one_surface ? " " + a.reduction : "") + (a.compatible ? " compatible" : "");
+std::string description(const MapRequest& request) {
+  return std::string(request.kind->name) +
+         (request.kind->reduces ? " " + std::string(name_of(request.reduction)) : "") +
+         (request.compatible ? " compatible" : "");
+}
+
+void write(const MapArguments& a, const PreparedScene& scene, const Map& map, const MapRequest& request) {
+  const std::string what = description(request);
   if (a.to_csv()) {
     const std::string title =
-        "rayfarm map " + what + ", " + std::to_string(map.size.width) + "x" +
-        std::to_string(map.size.height) + " pixels, " + std::to_string(scene.settings.spp) +
-        " samples per pixel; a line is a row from the top" +
+        "rayfarm map " + what + " (" + std::string(request.kind->unit) + "), " +
+        std::to_string(map.size.width) + "x" + std::to_string(map.size.height) + " pixels, " +
+        std::to_string(scene.settings.spp) + " samples per pixel; a line is a row from the top" +
         (map.channels == 3 ? "; x, y and z of a pixel are columns" : "") + "; inf: no surface";
     const std::string text = csv(map, title);
     write_atomically(a.output, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     return;
   }
-  Picture picture = a.to_exr() ? raw(map) : colored(map, kind);
+  Picture picture = a.to_exr() ? raw(map, *request.kind) : colored(map, *request.kind);
   picture.facts = facts_of(scene.hash, scene.settings);
   picture.facts["rayfarm:map"] = what;
   write_picture(a.output, picture);
+}
+
+MapRequest request_of(const MapArguments& a) {
+  const MapRequest request{map_named(a.kind), *reduction_named(a.reduction), a.compatible};
+  if (request.kind->source == MapSource::farm)
+    throw SettingsError("the map " + a.kind +
+                        " is of a job of the farm, not of a scene; name a job instead: " + "rayfarm map " +
+                        a.kind + " --job ID");
+  if (a.compatible && !request.kind->has_compatible)
+    throw SettingsError("the map " + a.kind + " has no --compat: the original renderer's is the same");
+  return request;
 }
 
 ExitCode make_map(const MapArguments& a) {
   if (!a.to_csv() && !a.to_exr() && !a.output.ends_with(".png"))
     throw FileError("cannot tell what to write from the name " + a.output +
                     "; let it end in .png, .exr or .csv");
+  const MapRequest request = request_of(a);
   check_place(a.output);
   note_interrupts();
   PreparedScene scene = prepare(a.picture);
   const World world(std::move(scene.scene));
-  const MapRequest request{*map_named(a.kind), *reduction_named(a.reduction), a.compatible};
   std::optional<Map> map;
   {
     ProgressLine line;
@@ -65,7 +79,7 @@ ExitCode make_map(const MapArguments& a) {
                  });
   }
   if (!map) throw CommandError(ExitCode::interrupted, "interrupted; nothing was written");
-  write(a, scene, *map, request.kind);
+  write(a, scene, *map, request);
   return ExitCode::done;
 }
 
@@ -74,12 +88,13 @@ ExitCode make_map(const MapArguments& a) {
 void add_map_command(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<MapArguments>();
   CLI::App* command = app.add_subcommand("map", "Write a map of what lies behind the pixels");
-  command
-      ->add_option("KIND", arguments->kind,
-                   "depth, normal, normal-camera, primary-rays, all-rays, samples or cost")
-      ->required()
-      ->check(
-          CLI::IsMember({"depth", "normal", "normal-camera", "primary-rays", "all-rays", "samples", "cost"}));
+  std::vector<std::string> names;
+  std::string kinds;
+  for (const MapKind& kind : all_maps()) {
+    names.emplace_back(kind.name);
+    kinds += "\n  " + names.back() + ": " + std::string(kind.help);
+  }
+  command->add_option("KIND", arguments->kind, map_names())->required()->check(CLI::IsMember(names));
   add_sample_options(*command, arguments->picture);
   command
       ->add_option("-o,--output", arguments->output,
@@ -94,7 +109,7 @@ void add_map_command(CLI::App& app, Command& chosen) {
                     "As the original renderer: all-rays without shadow rays, its formula of normal-camera");
   command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
       ->check(CLI::Range(1u, 1024u));
-  command->footer("Example: rayfarm map depth scenes/circus.lua -o depth.png");
+  command->footer("Kinds:" + kinds + "\nExample: rayfarm map depth scenes/circus.lua -o depth.png");
   command->callback([arguments, &chosen] { chosen = [arguments] { return make_map(*arguments); }; });
 }
 

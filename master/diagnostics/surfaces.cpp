@@ -1,6 +1,7 @@
 #include "master/diagnostics/surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 namespace rayfarm {
@@ -45,9 +46,19 @@ Surface mean_of(std::span<const SurfaceSample> samples) {
   return surface;
 }
 
+constexpr std::array<std::string_view, 4> reduction_names{"majority", "mean", "closest", "median"};
+
 bool closer(const SurfaceSample& a, const SurfaceSample& b) { return a.distance < b.distance; }
 
 }  // namespace
+
+std::optional<Reduction> reduction_named(std::string_view name) {
+  for (std::size_t i = 0; i < reduction_names.size(); ++i)
+    if (reduction_names[i] == name) return static_cast<Reduction>(i);
+  return std::nullopt;
+}
+
+std::string_view name_of(Reduction reduction) { return reduction_names[static_cast<std::size_t>(reduction)]; }
 
 SurfaceSample surface_sample(const World::Parts& world, const Hit& hit) {
   return {hit.leaf, face_of(world.leaves[hit.leaf], hit.normal), hit.t, hit.point, hit.normal};

@@ -5,6 +5,7 @@
 // Blur and Transparency (Cryptomatte), SIGGRAPH Posters 2015.
 #pragma once
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "common/render/hit.h"
@@ -39,6 +40,9 @@ enum class Reduction : std::uint8_t {
   closest,   // the sample nearest to the camera
   median,    // the sample in the middle by distance, those that hit nothing behind all others
 };
+
+std::optional<Reduction> reduction_named(std::string_view name);
+std::string_view name_of(Reduction reduction);
 
 /// None when the pixel shows nothing. `all`: the pixel's samples, those that hit nothing too.
 std::optional<Surface> reduced(const std::vector<SurfaceSample>& hits, std::uint32_t all,

@@ -27,6 +27,11 @@ FileKind kind_of(const std::filesystem::path& file) {
                   "; let it end in .exr or .png");
 }
 
+void check_readable(const std::filesystem::path& file) {
+  kind_of(file);
+  if (!std::filesystem::exists(file)) throw FileError("there is no file " + file.string());
+}
+
 double encoded(double linear, PngCurve curve) {
   if (curve == PngCurve::gamma22) return deterministic::pow(linear, 1 / 2.2);
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * deterministic::pow(linear, 1 / 2.4) - 0.055;
@@ -77,16 +82,19 @@ std::vector<std::uint8_t> png_bytes(const Picture& picture, PngCurve curve) {
 }
 
 void write_picture(const std::filesystem::path& file, const Picture& picture, PngCurve curve) {
-  assert(picture.rgb.size() == std::size_t{3} * picture.size.width * picture.size.height);
   check_writable(file);
   write_atomically(file,
                    kind_of(file) == FileKind::exr ? image_module().exr(picture) : png_bytes(picture, curve));
 }
 
 Picture read_picture(const std::filesystem::path& file) {
-  kind_of(file);
-  if (!std::filesystem::exists(file)) throw FileError("there is no file " + file.string());
+  check_readable(file);
   return image_module().read(file);
+}
+
+ChannelGroup read_channels(const std::filesystem::path& file, const std::vector<std::string>& names) {
+  check_readable(file);
+  return image_module().channels(file, names);
 }
 
 Picture read_linear(const std::filesystem::path& file) {

@@ -18,10 +18,17 @@ struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Values of an EXR beside the picture's, or instead of them.
+struct ChannelGroup {
+  std::vector<std::string> names;  // "N.X", "N.Y", "N.Z"
+  std::vector<float> values;       // row-major, names.size() a pixel
+};
+
 struct Picture {
   Size size;
-  std::vector<float> rgb;                    // row-major, linear Rec. 709
+  std::vector<float> rgb;                    // row-major, linear Rec. 709; may be empty in an EXR with groups
   std::map<std::string, std::string> facts;  // "rayfarm:seed" -> "0" ..., into the header
+  std::vector<ChannelGroup> groups{};        // into an EXR alone
 };
 
 enum class PngCurve : std::uint8_t { gamma22, srgb };
@@ -34,8 +41,11 @@ void write_picture(const std::filesystem::path& file, const Picture& picture,
                    PngCurve curve = PngCurve::gamma22);
 /// PNG bytes, for the web page.
 std::vector<std::uint8_t> png_bytes(const Picture& picture, PngCurve curve = PngCurve::gamma22);
-/// EXR as stored; PNG values 0..1 as stored (not linearised).
+/// EXR as stored; PNG values 0..1 as stored (not linearised). A file of one channel is grey, one of three of
+/// any names is taken as red, green and blue.
 Picture read_picture(const std::filesystem::path& file);
+/// Channels by name, as stored. Throws FileError when one is not there.
+ChannelGroup read_channels(const std::filesystem::path& file, const std::vector<std::string>& names);
 /// As read_picture, with a PNG's curve undone: ours as its header says, others as sRGB.
 Picture read_linear(const std::filesystem::path& file);
 

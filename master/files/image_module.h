@@ -19,6 +19,7 @@ struct ImageModule {
   FileBytes (*png)(const Picture& picture, std::span<const std::uint8_t> bytes, PngCurve curve);
   /// The header's strings come as facts; a PNG's curve as "oiio:ColorSpace".
   Picture (*read)(const std::filesystem::path& file);
+  ChannelGroup (*channels)(const std::filesystem::path& file, const std::vector<std::string>& names);
 };
 
 /// The module, opened at the first call. Throws FileError when it is not installed.

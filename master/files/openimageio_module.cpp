@@ -2,7 +2,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <array>
+#include <algorithm>
+#include <cassert>
 #include <memory>
 
 #include "master/files/image_module.h"
@@ -10,9 +11,11 @@
 namespace rayfarm {
 namespace {
 
-OIIO::ImageSpec spec_of(const Picture& picture, OIIO::TypeDesc type) {
-  OIIO::ImageSpec spec(static_cast<int>(picture.size.width), static_cast<int>(picture.size.height), 3, type);
-  spec.channelnames = {"R", "G", "B"};
+OIIO::ImageSpec spec_of(const Picture& picture, const std::vector<std::string>& channels,
+                        OIIO::TypeDesc type) {
+  OIIO::ImageSpec spec(static_cast<int>(picture.size.width), static_cast<int>(picture.size.height),
+                       static_cast<int>(channels.size()), type);
+  spec.channelnames = channels;
   for (const auto& [name, value] : picture.facts) spec.attribute(name, value);
   return spec;
 }
@@ -29,58 +32,112 @@ FileBytes encoded(const std::string& format, const OIIO::ImageSpec& spec, const 
   return bytes;
 }
 
+const std::vector<std::string> rgb_names{"R", "G", "B"};
+
+/// Pixel by pixel the values of all groups.
+std::vector<float> interleaved(const std::vector<ChannelGroup>& groups, std::size_t pixels) {
+  std::size_t channels = 0;
+  for (const ChannelGroup& group : groups) channels += group.names.size();
+  std::vector<float> values(pixels * channels);
+  std::size_t first = 0;
+  for (const ChannelGroup& group : groups) {
+    const std::size_t count = group.names.size();
+    assert(group.values.size() == pixels * count);
+    for (std::size_t i = 0; i < pixels; ++i)
+      std::copy_n(&group.values[i * count], count, &values[i * channels + first]);
+    first += count;
+  }
+  return values;
+}
+
 FileBytes exr(const Picture& picture) {
-  OIIO::ImageSpec spec = spec_of(picture, OIIO::TypeDesc::FLOAT);
+  const std::size_t pixels = std::size_t{picture.size.width} * picture.size.height;
+  std::vector<ChannelGroup> groups = picture.groups;
+  if (!picture.rgb.empty() && !groups.empty()) groups.insert(groups.begin(), {rgb_names, picture.rgb});
+  std::vector<std::string> names;
+  for (const ChannelGroup& group : groups) names.insert(names.end(), group.names.begin(), group.names.end());
+  OIIO::ImageSpec spec = spec_of(picture, groups.empty() ? rgb_names : names, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   // Without a DateTime OpenImageIO puts in the time of writing, which would make each file another one. One
   // of a type that EXR headers cannot hold leaves the entry out.
   const long long no_time = 0;
   spec.attribute("DateTime", OIIO::TypeDesc::INT64, &no_time);
-  return encoded(".exr", spec, picture.rgb.data());
+  if (groups.empty()) {
+    assert(picture.rgb.size() == 3 * pixels);
+    return encoded(".exr", spec, picture.rgb.data());
+  }
+  return encoded(".exr", spec, interleaved(groups, pixels).data());
 }
 
 FileBytes png(const Picture& picture, std::span<const std::uint8_t> bytes, PngCurve curve) {
-  OIIO::ImageSpec spec = spec_of(picture, OIIO::TypeDesc::UINT8);
+  OIIO::ImageSpec spec = spec_of(picture, rgb_names, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", curve == PngCurve::srgb ? "sRGB" : "Gamma2.2");
   if (curve == PngCurve::gamma22) spec.attribute("oiio:Gamma", 2.2f);
   return encoded(".png", spec, bytes.data());
 }
 
-/// R, G and B by name (a file may hold them in any order, with others between); a single channel is grey.
-std::vector<float> rgb_of(const std::vector<float>& values, const OIIO::ImageSpec& spec,
-                          const std::string& name) {
-  const int channels = spec.nchannels;
-  std::array<int, 3> index{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
-  if (channels <= 2) index = {0, 0, 0};
-  if (index[0] < 0 || index[1] < 0 || index[2] < 0) throw FileError(name + " has no channels R, G and B");
-  const std::size_t pixels = values.size() / static_cast<std::size_t>(channels);
-  std::vector<float> rgb(pixels * 3);
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      rgb[3 * i + c] = values[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(index[c])];
-  return rgb;
-}
+/// A file as stored.
+struct StoredImage {
+  OIIO::ImageSpec spec;
+  std::vector<float> values;  // spec.nchannels a pixel
 
-Picture read(const std::filesystem::path& file) {
+  Size size() const {
+    return {static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height)};
+  }
+  std::vector<float> channels(const std::vector<int>& which) const {
+    const auto stored = static_cast<std::size_t>(spec.nchannels);
+    std::vector<float> picked;
+    picked.reserve(values.size() / stored * which.size());
+    for (std::size_t pixel = 0; pixel < values.size(); pixel += stored)
+      for (const int channel : which) picked.push_back(values[pixel + static_cast<std::size_t>(channel)]);
+    return picked;
+  }
+};
+
+StoredImage stored_image(const std::filesystem::path& file) {
   const std::string name = file.string();
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(name);
   if (!in) throw FileError("cannot read " + name + ": " + OIIO::geterror());
-  const OIIO::ImageSpec spec = in->spec();
+  StoredImage image{in->spec(), {}};
+  const OIIO::ImageSpec& spec = image.spec;
   if (static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) > 500'000'000u)
     throw FileError(name + " has over 500 megapixels");
-  std::vector<float> values(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                            static_cast<std::size_t>(spec.nchannels));
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
+  image.values.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                      static_cast<std::size_t>(spec.nchannels));
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()))
     throw FileError("cannot read " + name + ": " + in->geterror());
+  return image;
+}
 
+/// A file may hold R, G and B in any order, with others between.
+std::vector<int> rgb_channels(const OIIO::ImageSpec& spec, const std::string& name) {
+  if (spec.nchannels <= 2) return {0, 0, 0};
+  const std::vector<int> rgb{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  if (rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0) return rgb;
+  if (spec.nchannels == 3) return {0, 1, 2};
+  throw FileError(name + " has no channels R, G and B");
+}
+
+Picture read(const std::filesystem::path& file) {
+  const StoredImage image = stored_image(file);
   Picture picture;
-  picture.size = {static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height)};
-  picture.rgb = rgb_of(values, spec, name);
-  for (const auto& attribute : spec.extra_attribs)
+  picture.size = image.size();
+  picture.rgb = image.channels(rgb_channels(image.spec, file.string()));
+  for (const auto& attribute : image.spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING)
       picture.facts[attribute.name().string()] = attribute.get_string();
   return picture;
+}
+
+ChannelGroup channels(const std::filesystem::path& file, const std::vector<std::string>& names) {
+  const StoredImage image = stored_image(file);
+  std::vector<int> which;
+  for (const std::string& name : names) {
+    which.push_back(image.spec.channelindex(name));
+    if (which.back() < 0) throw FileError(file.string() + " has no channel " + name);
+  }
+  return {names, image.channels(which)};
 }
 
 }  // namespace
@@ -88,6 +145,6 @@ Picture read(const std::filesystem::path& file) {
 
 extern "C" const rayfarm::ImageModule* rayfarm_images() {
   OIIO::attribute("debug", 0);  // its notes about the DateTime above would go to the user's terminal
-  static const rayfarm::ImageModule module{rayfarm::exr, rayfarm::png, rayfarm::read};
+  static const rayfarm::ImageModule module{rayfarm::exr, rayfarm::png, rayfarm::read, rayfarm::channels};
   return &module;
 }

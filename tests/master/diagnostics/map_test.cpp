@@ -1,9 +1,10 @@
-#include "master/diagnostics/map.h"
+#include "master/diagnostics/map_picture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "common/render/pixel.h"
 #include "master/diagnostics/statistics.h"
@@ -12,6 +13,9 @@
 namespace rayfarm {
 namespace {
 
+const MapKind *depth = map_named("depth"), *normal = map_named("normal"),
+              *normal_camera = map_named("normal-camera"), *primary_rays = map_named("primary-rays"),
+              *all_rays = map_named("all-rays"), *samples = map_named("samples"), *cost = map_named("cost");
 const auto never = [] { return false; };
 const auto unheard = [](std::uint32_t, std::uint32_t) {};
 
@@ -47,12 +51,12 @@ TEST(Map, NoReductionButTheMeanShowsADepthOfNoSurface) {
   int mixed = 0;
   for (const Reduction reduction :
        {Reduction::majority, Reduction::closest, Reduction::median, Reduction::mean})
-    for (const float depth : map_by(balls_before_a_plane(), {MapKind::depth, reduction}).values) {
-      const bool right = is_depth_of_a_surface(depth);
+    for (const float value : map_by(balls_before_a_plane(), {depth, reduction}).values) {
+      const bool right = is_depth_of_a_surface(value);
       if (reduction == Reduction::mean)
         mixed += !right;
       else
-        EXPECT_TRUE(right) << depth;
+        EXPECT_TRUE(right) << value;
     }
   EXPECT_GT(mixed, 30);  // why the others are there
 }
@@ -62,9 +66,9 @@ TEST(Map, WherePixelsShowNothingTheDepthIsInfinite) {
   scene.nodes.pop_back();
   std::get<Operation>(scene.nodes[0].content).children = 5;
   int infinite = 0;
-  for (const float depth : map_by(scene, {MapKind::depth}).values) {
-    EXPECT_TRUE(depth < 12 || std::isinf(depth)) << depth;
-    infinite += std::isinf(depth);
+  for (const float value : map_by(scene, {depth}).values) {
+    EXPECT_TRUE(value < 12 || std::isinf(value)) << value;
+    infinite += std::isinf(value);
   }
   EXPECT_GT(infinite, 70 * 66 / 2);
 }
@@ -151,17 +155,17 @@ TEST(Map, CountsAddUpToTheStatistics) {
       const Map map = map_by(scene, request, s);
       return std::accumulate(map.values.begin(), map.values.end(), 0.0);
     };
-    EXPECT_EQ(sum({MapKind::samples}), c.primary);
-    EXPECT_EQ(sum({MapKind::primary_rays}), c.primary_hits);
-    EXPECT_EQ(sum({MapKind::all_rays}), c.primary_hits + c.secondary_hits + c.shadow);
-    EXPECT_EQ(sum({MapKind::all_rays, {}, true}), c.primary_hits + c.secondary_hits);
-    EXPECT_GT(sum({MapKind::cost}), 0);
+    EXPECT_EQ(sum({samples}), c.primary);
+    EXPECT_EQ(sum({primary_rays}), c.primary_hits);
+    EXPECT_EQ(sum({all_rays}), c.primary_hits + c.secondary_hits + c.shadow);
+    EXPECT_EQ(sum({all_rays, {}, true}), c.primary_hits + c.secondary_hits);
+    EXPECT_GT(sum({cost}), 0);
   }
 }
 
 TEST(Map, ANormalRelativeToTheCameraIsTheSameNormalInItsAxes) {
   const Scene scene = random_scene(2);
-  const Map world = map_by(scene, {MapKind::normal}), camera = map_by(scene, {MapKind::normal_camera});
+  const Map world = map_by(scene, {normal}), camera = map_by(scene, {normal_camera});
   const CameraAxes axes = axes_of(CameraRays(scene.camera, {70, 66}), {70, 66});
   for (std::size_t i = 0; i < world.values.size(); i += 3) {
     const Vec3d n{camera.values[i], camera.values[i + 1], camera.values[i + 2]};
@@ -174,7 +178,7 @@ TEST(Map, ANormalRelativeToTheCameraIsTheSameNormalInItsAxes) {
 
 TEST(Map, IsTheSameForAnyNumberOfThreads) {
   const World world(random_scene(5));
-  for (const MapKind kind : {MapKind::depth, MapKind::normal, MapKind::all_rays}) {
+  for (const MapKind* kind : {depth, normal, all_rays}) {
     const Map one = *map_of(world, small_settings(4), {kind}, 1, never, unheard);
     EXPECT_EQ(one.values, map_of(world, small_settings(4), {kind}, 5, never, unheard)->values);
   }
@@ -193,14 +197,31 @@ std::vector<int> bytes_of(const Picture& picture) {
 TEST(MapColors, AreTheOriginals) {
   const float inf = std::numeric_limits<float>::infinity();
   const Size row{3, 1};
-  EXPECT_EQ(bytes_of(colored({row, 1, {2, 6, 10}}, MapKind::all_rays)),
+  EXPECT_EQ(bytes_of(colored({row, 1, {2, 6, 10}}, *all_rays)),
             (std::vector<int>{0, 0, 255, 0, 255, 0, 255, 0, 0}));
-  EXPECT_EQ(bytes_of(colored({row, 1, {7, 7, 7}}, MapKind::samples)),
+  EXPECT_EQ(bytes_of(colored({row, 1, {7, 7, 7}}, *samples)),
             (std::vector<int>{255, 0, 0, 255, 0, 0, 255, 0, 0}));
-  EXPECT_EQ(bytes_of(colored({row, 1, {1, 10, inf}}, MapKind::depth)),
+  EXPECT_EQ(bytes_of(colored({row, 1, {1, 10, inf}}, *depth)),
             (std::vector<int>{255, 255, 255, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(bytes_of(colored({row, 3, {0, 0, -1, 1, 0, 0, inf, inf, inf}}, MapKind::normal)),
+  EXPECT_EQ(bytes_of(colored({row, 3, {0, 0, -1, 1, 0, 0, inf, inf, inf}}, *normal)),
             (std::vector<int>{127, 127, 255, 254, 127, 128, 0, 0, 0}));
+}
+
+TEST(MapKinds, HaveNamesOfTheirOwnAndWordsForPeople) {
+  std::set<std::string_view> names, channels;
+  std::size_t channel_count = 0;
+  for (const MapKind& kind : all_maps()) {
+    names.insert(kind.name);
+    channels.insert(kind.channels.begin(), kind.channels.end());
+    channel_count += kind.channels.size();
+    EXPECT_EQ(map_named(kind.name), &kind);
+    EXPECT_FALSE(kind.title.empty() || kind.unit.empty() || kind.help.empty()) << kind.name;
+    EXPECT_EQ(kind.put == nullptr, kind.source == MapSource::farm) << kind.name;
+    EXPECT_EQ(kind.channels.size(), kind.scale == MapScale::normal ? 3u : 1u) << kind.name;
+  }
+  EXPECT_EQ(names.size(), all_maps().size());
+  EXPECT_EQ(channels.size(), channel_count);  // of one EXR
+  EXPECT_EQ(map_named("no such map"), nullptr);
 }
 
 TEST(MapCsv, HasALineForEachRow) {

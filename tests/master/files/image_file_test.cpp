@@ -54,6 +54,26 @@ TEST(ExrFile, HoldsNoTimeAndNoHost) {
   EXPECT_EQ(bytes.find(folder.path().string()), std::string::npos);
 }
 
+TEST(ExrFile, HoldsNamedChannelsBesideThePictureOrAlone) {
+  const ScratchFolder folder;
+  Picture picture = noise({9, 5});
+  const std::vector<float> before = picture.rgb;
+  std::vector<float> depth(45), normals = noise({9, 5}).rgb;
+  for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = static_cast<float>(i);
+  depth[7] = std::numeric_limits<float>::infinity();
+  picture.groups = {{{"Z"}, depth}, {{"N.X", "N.Y", "N.Z"}, normals}};
+  write_picture(folder / "both.exr", picture);
+  picture.rgb.clear();
+  write_picture(folder / "alone.exr", picture);
+
+  EXPECT_TRUE(same_bits(read_picture(folder / "both.exr").rgb, before));
+  for (const std::string name : {"both.exr", "alone.exr"}) {
+    EXPECT_TRUE(same_bits(read_channels(folder / name, {"Z"}).values, depth));
+    EXPECT_TRUE(same_bits(read_channels(folder / name, {"N.X", "N.Y", "N.Z"}).values, normals));
+    EXPECT_THROW(read_channels(folder / name, {"Samples"}), FileError);
+  }
+}
+
 TEST(PictureFile, TheSamePixelsAndFactsGiveTheSameBytesUnderAnyName) {
   const ScratchFolder folder;
   for (const std::string ending : {".exr", ".png"}) {

@@ -1,3 +1,5 @@
+#include "master/diagnostics/map_picture.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -5,7 +7,6 @@
 
 #include "common/math/deterministic.h"
 #include "common/math/number.h"
-#include "master/diagnostics/map.h"
 
 namespace rayfarm {
 namespace {
@@ -49,33 +50,42 @@ Rgb normal_color(const float* n) {
   return {byte(n[0]), byte(n[1]), 255 - byte(n[2])};
 }
 
+/// Hues a golden angle apart: neighbours in number differ most.
+Rgb label_color(double value) {
+  if (!std::isfinite(value)) return {0, 0, 0};
+  const double turns = value * 0.6180339887;
+  return count_color(turns - std::floor(turns), {0, 1});
+}
+
+Rgb color_of(const float* value, MapScale scale, const Range& range) {
+  switch (scale) {
+    case MapScale::depth:
+      return depth_color(*value, range);
+    case MapScale::count:
+      return count_color(*value, range);
+    case MapScale::normal:
+      return normal_color(value);
+    case MapScale::label:
+      return label_color(*value);
+  }
+  return {};
+}
+
 }  // namespace
 
-Picture colored(const Map& map, MapKind kind) {
+Picture colored(const Map& map, const MapKind& kind) {
   const Range range = range_of(map.values);
   Picture picture{map.size, {}, {}};
   picture.rgb.reserve(map.values.size() / map.channels * 3);
-  for (std::size_t i = 0; i < map.values.size(); i += map.channels) {
-    const float* value = &map.values[i];
-    const Rgb color = map.channels == 3        ? normal_color(value)
-                      : kind == MapKind::depth ? depth_color(*value, range)
-                                               : count_color(*value, range);
+  for (std::size_t i = 0; i < map.values.size(); i += map.channels)
     // Linear, so that the picture's gamma of 2.2 gives the bytes again.
-    for (const double byte : color)
+    for (const double byte : color_of(&map.values[i], kind.scale, range))
       picture.rgb.push_back(static_cast<float>(deterministic::pow(byte / 255, 2.2)));
-  }
   return picture;
 }
 
-Picture raw(const Map& map) {
-  Picture picture{map.size, {}, {}};
-  if (map.channels == 3) {
-    picture.rgb = map.values;
-  } else {
-    picture.rgb.reserve(3 * map.values.size());
-    for (const float value : map.values) picture.rgb.insert(picture.rgb.end(), 3, value);
-  }
-  return picture;
+Picture raw(const Map& map, const MapKind& kind) {
+  return {map.size, {}, {}, {{{kind.channels.begin(), kind.channels.end()}, map.values}}};
 }
 
 std::string csv(const Map& map, const std::string& title) {

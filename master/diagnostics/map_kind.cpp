@@ -1,0 +1,121 @@
+#include "master/diagnostics/map_kind.h"
+
+#include <array>
+
+#include "common/math/number.h"
+
+namespace rayfarm {
+namespace {
+
+template <std::size_t n>
+using Names = std::array<std::string_view, n>;
+
+constexpr Names<1> z{"Z"}, primary{"RayCount.primary"}, all{"RayCount.all"}, samples{"Samples"}, cost{"Cost"},
+    worker{"Worker"};
+constexpr Names<3> normal{"N.X", "N.Y", "N.Z"}, camera_normal{"Nc.X", "Nc.Y", "Nc.Z"};
+
+void put_number(double value, float* into) { *into = static_cast<float>(value); }
+
+void put_vector(const Vec3d& v, float* into) {
+  for (int c = 0; c < 3; ++c) into[c] = static_cast<float>(v[c]);
+}
+
+constexpr Vec3d nowhere{infinity, infinity, infinity};
+
+Vec3d camera_normal_of(const Surface& s, const MapView& view) {
+  if (view.compatible) return normalized(view.eye - s.point - s.normal);
+  return {dot(s.normal, view.axes.right), dot(s.normal, view.axes.up), dot(s.normal, view.axes.forward)};
+}
+
+constexpr MapKind maps[] = {
+    {.name = "depth",
+     .title = "Depth",
+     .unit = "scene units",
+     .help = "distance to the first surface",
+     .channels = z,
+     .scale = MapScale::depth,
+     .reduces = true,
+     .put = [](const PixelFacts& p, const MapView&,
+               float* into) { put_number(p.surface ? p.surface->distance : infinity, into); }},
+    {.name = "normal",
+     .title = "Normal",
+     .unit = "unit vector, world axes",
+     .help = "normal of the first surface",
+     .channels = normal,
+     .scale = MapScale::normal,
+     .reduces = true,
+     .put = [](const PixelFacts& p, const MapView&,
+               float* into) { put_vector(p.surface ? p.surface->normal : nowhere, into); }},
+    {.name = "normal-camera",
+     .title = "Normal, camera",
+     .unit = "unit vector, the camera's right, up and forward",
+     .help =
+         "normal of the first surface in the camera's axes; compatible: by the original renderer's formula",
+     .channels = camera_normal,
+     .scale = MapScale::normal,
+     .reduces = true,
+     .has_compatible = true,
+     .put = [](const PixelFacts& p, const MapView& view,
+               float* into) { put_vector(p.surface ? camera_normal_of(*p.surface, view) : nowhere, into); }},
+    {.name = "primary-rays",
+     .title = "Primary rays",
+     .unit = "rays",
+     .help = "primary rays that hit something",
+     .channels = primary,
+     .put = [](const PixelFacts& p, const MapView&,
+               float* into) { put_number(static_cast<double>(p.rays.primary_hits), into); }},
+    {.name = "all-rays",
+     .title = "All rays",
+     .unit = "rays",
+     .help = "rays of every kind that hit something, and shadow rays; compatible: without shadow rays",
+     .channels = all,
+     .source = MapSource::rays,
+     .has_compatible = true,
+     .put =
+         [](const PixelFacts& p, const MapView& view, float* into) {
+           const std::uint64_t hits = p.rays.primary_hits + p.rays.secondary_hits;
+           put_number(static_cast<double>(view.compatible ? hits : hits + p.rays.shadow), into);
+         }},
+    {.name = "samples",
+     .title = "Samples",
+     .unit = "rays",
+     .help = "primary rays",
+     .channels = samples,
+     .put = [](const PixelFacts& p, const MapView&,
+               float* into) { put_number(static_cast<double>(p.rays.primary), into); }},
+    {.name = "cost",
+     .title = "Cost",
+     .unit = "seconds",
+     .help = "time on one thread; of a job: its tile's, over the tile's pixels",
+     .channels = cost,
+     .source = MapSource::time,
+     .put = [](const PixelFacts& p, const MapView&, float* into) { put_number(p.seconds, into); }},
+    {.name = "worker",
+     .title = "Worker",
+     .unit = "worker",
+     .help = "who rendered the pixel; of a job alone",
+     .channels = worker,
+     .scale = MapScale::label,
+     .source = MapSource::farm},
+};
+
+}  // namespace
+
+std::span<const MapKind> all_maps() { return maps; }
+
+const MapKind* map_named(std::string_view name) {
+  for (const MapKind& map : maps)
+    if (map.name == name) return &map;
+  return nullptr;
+}
+
+std::string map_names() {
+  std::string text;
+  for (const MapKind& map : maps) {
+    if (&map != &maps[0]) text += &map + 1 == std::end(maps) ? " or " : ", ";
+    text += map.name;
+  }
+  return text;
+}
+
+}  // namespace rayfarm
