@@ -74,10 +74,11 @@ void serve(const Arguments& arguments) {
   LiveFarm farm;
   Sessions sessions(io, farm, parse_address(arguments.listen, default_farm_port),
                     arguments.insecure ? Exposure::insecure : Exposure::loopback_only);
-  const HttpServer http({arguments.http, arguments.insecure},
-                        [&](std::function<void(Farm&, FarmTime)> question) {
-                          asio::post(io, [&farm, question = std::move(question)] { farm.apply(question); });
-                        });
+  FarmDoor door([&](std::function<void(Farm&, FarmTime)> question) {
+    asio::post(io, [&farm, question = std::move(question)] { farm.apply(question); });
+  });
+  const AppFiles app;
+  const HttpServer http({arguments.http, arguments.insecure}, {.farm = door, .app = app});
   std::optional<LocalThreads> local;
   if (arguments.threads > 0) local.emplace(io, farm, arguments.threads);
   dial_all(sessions, arguments.dial);

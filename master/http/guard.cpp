@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace rayfarm {
 namespace {
@@ -40,11 +39,6 @@ bool is_json(const std::string& content_type) {
 }
 
 }  // namespace
-
-ApiResponse error_response(unsigned status, const std::string& message) {
-  const nlohmann::json body{{"error", message}};
-  return {status, "application/json", body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
-}
 
 std::optional<ApiResponse> refusal(const ApiRequest& request, const ListenAddress& listening) {
   if (!is_ours(request.host, listening))

@@ -8,21 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "master/http/message.h"
+
 namespace rayfarm {
-
-struct ApiRequest {
-  std::string method, target;
-  std::string host, origin, fetch_site, content_type;  // header fields; empty: not there
-  std::string body;
-};
-
-struct ApiResponse {
-  unsigned status = 200;
-  std::string content_type = "application/json";
-  std::string body;
-};
-
-ApiResponse error_response(unsigned status, const std::string& message);
 
 struct ListenAddress {
   std::string address;  // numeric

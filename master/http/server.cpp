@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "master/http/api.h"
+#include "master/http/guard.h"
 #include "master/http/submission.h"
 
 namespace rayfarm {
@@ -70,7 +71,7 @@ std::string pc_name() {
 }
 
 using RequestParser = http::request_parser<http::string_body>;
-using Response = http::response<http::string_body>;
+using Response = http::response<http::span_body<const char>>;
 
 ApiRequest api_request(const RequestParser::value_type& message) {
   const auto field = [&](std::string_view name) { return std::string(message[name]); };
@@ -83,15 +84,23 @@ ApiRequest api_request(const RequestParser::value_type& message) {
           ""};
 }
 
-Response http_response(ApiResponse answer, const RequestParser::value_type& request, bool keep_alive) {
-  Response response(static_cast<http::status>(answer.status), request.version(), std::move(answer.body));
+std::string_view words_of(Caching caching) {
+  if (caching == Caching::for_ever) return "public, max-age=31536000, immutable";
+  return caching == Caching::ask_again ? "no-cache" : "no-store";
+}
+
+/// The head of an answer, and a view of its body.
+Response http_response(const ApiResponse& answer, const RequestParser::value_type& request, bool keep_alive) {
+  Response response(static_cast<http::status>(answer.status), request.version());
+  response.body() = {answer.body.data(), answer.body.size()};
   response.set(http::field::server, "rayfarm");
   response.set(http::field::content_type, answer.content_type);
-  response.set(http::field::cache_control, "no-store");
+  response.set(http::field::cache_control, words_of(answer.caching));
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
   response.set("Content-Security-Policy",
-               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
+               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+               "connect-src 'self'; "
                "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
   response.keep_alive(keep_alive);
   response.prepare_payload();
@@ -129,8 +138,8 @@ std::optional<ApiResponse> complaint(const boost::system::error_code& error) {
 }  // namespace
 
 struct HttpServer::Parts {
-  Parts(const HttpSettings& settings, OnFarm on_farm)
-      : settings(settings), farm(std::move(on_farm)), acceptor(acceptor_at(io, settings)) {
+  Parts(const HttpSettings& settings, const Doors& doors)
+      : settings(settings), doors(doors), acceptor(acceptor_at(io, settings)) {
     const asio::ip::address address = acceptor.local_endpoint().address();
     listening = {address.to_string(), address.is_loopback(), pc_name()};
   }
@@ -139,22 +148,24 @@ struct HttpServer::Parts {
   asio::awaitable<void> session(beast::tcp_stream stream);
   asio::awaitable<void> see_off(beast::tcp_stream& stream);
   asio::awaitable<bool> converse(beast::tcp_stream& stream, beast::flat_buffer& buffer);
-  asio::awaitable<bool> reply(beast::tcp_stream& stream, Response response);
+  asio::awaitable<bool> reply(beast::tcp_stream& stream, ApiResponse answer,
+                              const RequestParser::value_type& request, bool keep_alive);
   asio::awaitable<ApiResponse> respond(const ApiRequest& request);
   asio::awaitable<void> await_news(NewsWait wait);
   asio::awaitable<ApiResponse> answer_in_pool(const ApiRequest& request);
-  asio::awaitable<std::uint64_t> current_revision();
+  asio::awaitable<bool> has_come(NewsWait wait);
+  asio::thread_pool& threads_for(Work work) { return threads[static_cast<std::size_t>(work)]; }
 
   const HttpSettings settings;
-  FarmDoor farm;
+  const Doors doors;
   ListenAddress listening;
   int connections = 0;
   std::uint64_t body_bytes = 0;  // that peers may send just now
   // What waits in these owns sessions, which use the members above.
   asio::io_context io{1};
   tcp::acceptor acceptor;
-  asio::thread_pool long_work{2};   // pictures are compressed and scenes are checked here
-  asio::thread_pool short_work{1};  // all else, so that no cancel waits behind a picture
+  std::array<asio::thread_pool, 4> threads{asio::thread_pool(1), asio::thread_pool(1), asio::thread_pool(2),
+                                           asio::thread_pool(1)};  // by kind of work
   std::jthread thread;
 };
 
@@ -221,65 +232,69 @@ asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
     if (error) refused = complaint(error);
     if (error && !refused) co_return false;
   }
-  if (refused) {
-    Response response = http_response(std::move(*refused), parser.get(), false);
-    co_return co_await reply(stream, std::move(response));
-  }
+  if (refused) co_return co_await reply(stream, std::move(*refused), parser.get(), false);
 
   request.body = std::move(parser.get().body());
   ApiResponse answered = co_await respond(request);
-  Response response = http_response(std::move(answered), parser.get(), parser.get().keep_alive());
-  co_return co_await reply(stream, std::move(response));
+  co_return co_await reply(stream, std::move(answered), parser.get(), parser.get().keep_alive());
 }
 
-asio::awaitable<bool> HttpServer::Parts::reply(beast::tcp_stream& stream, Response response) {
+asio::awaitable<bool> HttpServer::Parts::reply(beast::tcp_stream& stream, ApiResponse answer,
+                                               const RequestParser::value_type& request, bool keep_alive) {
+  Response response = http_response(answer, request, keep_alive);
   stream.expires_after(write_patience);
   co_await http::async_write(stream, response, asio::use_awaitable);
   co_return response.keep_alive();
 }
 
+/// What is not there yet is asked for again while the peer wants to wait.
 asio::awaitable<ApiResponse> HttpServer::Parts::respond(const ApiRequest& request) {
+  const auto end = std::chrono::steady_clock::now() + patience_of(request);
   const std::optional<NewsWait> wait = news_wait(request);
   if (wait) co_await await_news(*wait);
-  asio::thread_pool& pool = takes_long(request) ? long_work : short_work;
-  asio::awaitable<ApiResponse> answering = answer_in_pool(request);
-  co_return co_await asio::co_spawn(pool, std::move(answering), asio::use_awaitable);
+  for (;;) {
+    asio::awaitable<ApiResponse> answering = answer_in_pool(request);
+    ApiResponse answered =
+        co_await asio::co_spawn(threads_for(work_of(request)), std::move(answering), asio::use_awaitable);
+    if (answered.status != 202 || std::chrono::steady_clock::now() >= end) co_return answered;
+    asio::steady_timer pause(io, news_glance);
+    co_await pause.async_wait(asio::use_awaitable);
+  }
 }
 
 asio::awaitable<void> HttpServer::Parts::await_news(NewsWait wait) {
   const auto end = std::chrono::steady_clock::now() + wait.longest;
   while (std::chrono::steady_clock::now() < end) {
-    asio::awaitable<std::uint64_t> asking = current_revision();
-    const std::uint64_t revision =
-        co_await asio::co_spawn(short_work, std::move(asking), asio::use_awaitable);
-    if (revision != wait.after) co_return;
+    asio::awaitable<bool> asking = has_come(wait);
+    if (co_await asio::co_spawn(threads_for(Work::command), std::move(asking), asio::use_awaitable))
+      co_return;
     asio::steady_timer pause(io, news_glance);
     co_await pause.async_wait(asio::use_awaitable);
   }
 }
 
 asio::awaitable<ApiResponse> HttpServer::Parts::answer_in_pool(const ApiRequest& request) {
-  co_return answer(request, farm);
+  co_return answer(request, doors);
 }
 
-asio::awaitable<std::uint64_t> HttpServer::Parts::current_revision() {
-  co_return farm.ask([](Farm& f, FarmTime) { return f.revision(); });
+asio::awaitable<bool> HttpServer::Parts::has_come(NewsWait wait) {
+  co_return doors.farm.ask([wait](Farm& farm, FarmTime now) {
+    return farm.revision() != wait.after || (wait.job && !farm.job(*wait.job, now));
+  });
 }
 
-HttpServer::HttpServer(const HttpSettings& settings, OnFarm on_farm)
-    : parts_(std::make_unique<Parts>(settings, std::move(on_farm))) {
+HttpServer::HttpServer(const HttpSettings& settings, const Doors& doors)
+    : parts_(std::make_unique<Parts>(settings, doors)) {
   asio::co_spawn(parts_->io, parts_->accept_all(), asio::detached);
   parts_->thread = std::jthread([parts = parts_.get()] { parts->io.run(); });
 }
 
 HttpServer::~HttpServer() {
-  parts_->long_work.stop();  // what has not begun is dropped
-  parts_->short_work.stop();
-  parts_->farm.close();
+  for (asio::thread_pool& pool : parts_->threads) pool.stop();  // what has not begun is dropped
+  parts_->doors.farm.close();
   parts_->io.stop();
   parts_->thread.join();
-  parts_->long_work.join();
-  parts_->short_work.join();
+  for (asio::thread_pool& pool : parts_->threads) pool.join();
 }
 
 std::string HttpServer::url() const {

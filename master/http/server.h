@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "master/http/farm_door.h"
+#include "master/http/doors.h"
 
 namespace rayfarm {
 
@@ -30,8 +30,8 @@ struct HttpSettings {
 class HttpServer {
  public:
   /// Listens from now on. Throws HttpError.
-  HttpServer(const HttpSettings& settings, OnFarm on_farm);
-  /// Ends all connections; may run on the farm's thread.
+  HttpServer(const HttpSettings& settings, const Doors& doors);
+  /// Ends all connections and closes the farm's door; may run on the farm's thread.
   ~HttpServer();
 
   /// With the port that is really listened to.

@@ -16,9 +16,11 @@ using nlohmann::json;
 
 class Api : public testing::Test {
  protected:
-  ApiResponse get(const std::string& target) { return answer({"GET", target, "", "", "", "", ""}, door); }
+  ApiResponse get(const std::string& target) {
+    return answer({"GET", target, "", "", "", "", ""}, {.farm = door, .app = app});
+  }
   ApiResponse post(const std::string& target, const json& body = json::object()) {
-    return answer({"POST", target, "", "", "", "", body.dump()}, door);
+    return answer({"POST", target, "", "", "", "", body.dump()}, {.farm = door, .app = app});
   }
   json get_json(const std::string& target) { return json::parse(get(target).body); }
   std::string submit(const JobSpec& spec = small_job()) {
@@ -30,6 +32,7 @@ class Api : public testing::Test {
 
   FarmThread farm;
   FarmDoor door{[this](FarmThread::Task task) { farm.post(std::move(task)); }};
+  const AppFiles app;
 };
 
 TEST_F(Api, ASubmittedJobIsListedAndShownWithItsSettings) {
@@ -57,7 +60,7 @@ TEST_F(Api, TheFilmOfADoneJobIsTheFarms) {
   farm.run([&](Farm& f, FarmTime) { EXPECT_EQ(f.film(JobId{std::stoull(id)})->rgb(), film.rgb()); });
   const ApiResponse picture = get("/api/v1/jobs/" + id + "/picture.png");
   EXPECT_EQ(picture.content_type, "image/png");
-  EXPECT_EQ(picture.body.substr(1, 3), "PNG");
+  EXPECT_EQ(picture.body.text().substr(1, 3), "PNG");
 }
 
 TEST_F(Api, AJobIsPausedResumedPrioritisedAndCancelled) {
@@ -126,7 +129,8 @@ TEST_F(Api, AKeyIsForOneSceneWithOneSettingUntilItsJobHasFailed) {
   other.settings.seed = 7;
   const ApiResponse refused = post("/api/v1/jobs", to_json(other));
   EXPECT_EQ(refused.status, 409u);
-  EXPECT_NE(refused.body.find("homework belongs to job " + id), std::string::npos) << refused.body;
+  EXPECT_NE(refused.body.text().find("homework belongs to job " + id), std::string::npos)
+      << refused.body.text();
   post("/api/v1/jobs/" + id + "/cancel");
   EXPECT_NE(submit(other), id);
 }

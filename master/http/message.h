@@ -1,0 +1,61 @@
+// A request and its answer, without sockets.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rayfarm {
+
+/// The bytes of an answer: they no longer change, and all who send them share them.
+class Body {
+ public:
+  Body() = default;
+  Body(std::string text) { own(std::move(text)); }
+  Body(const char* text) : Body(std::string(text)) {}
+  Body(std::vector<std::uint8_t> bytes) { own(std::move(bytes)); }
+  /// Of bytes that live as long as the program.
+  static Body lasting(std::string_view bytes) {
+    Body body;
+    body.bytes_ = bytes;
+    return body;
+  }
+
+  std::string_view text() const { return bytes_; }
+  const char* data() const { return bytes_.data(); }
+  std::size_t size() const { return bytes_.size(); }
+  const char* begin() const { return bytes_.data(); }
+  const char* end() const { return bytes_.data() + bytes_.size(); }
+
+ private:
+  template <class Bytes>
+  void own(Bytes&& bytes) {
+    const auto owned = std::make_shared<const Bytes>(std::move(bytes));
+    bytes_ = {reinterpret_cast<const char*>(owned->data()), owned->size()};
+    owner_ = owned;
+  }
+
+  std::shared_ptr<const void> owner_;
+  std::string_view bytes_;
+};
+
+struct ApiRequest {
+  std::string method, target;
+  std::string host, origin, fetch_site, content_type;  // header fields; empty: not there
+  std::string body;
+};
+
+/// How long a browser may keep an answer.
+enum class Caching : std::uint8_t { never, ask_again, for_ever };
+
+struct ApiResponse {
+  unsigned status = 200;  // 202: not yet; with ?wait=SECONDS the request is tried again until then
+  std::string content_type = "application/json";
+  Body body;
+  Caching caching = Caching::never;
+};
+
+ApiResponse error_response(unsigned status, const std::string& message);
+
+}  // namespace rayfarm

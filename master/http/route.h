@@ -1,0 +1,59 @@
+// The tables of what can be asked: each *_api.cpp has one, the router looks into all of them.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/net/messages.h"
+#include "master/http/api_error.h"
+#include "master/http/doors.h"
+#include "master/http/message.h"
+
+namespace rayfarm {
+
+/// Each kind has threads of its own, so that it never waits behind another one.
+enum class Work : std::uint8_t {
+  command,  // asks the farm something small
+  trace,    // milliseconds of processor time
+  picture,  // seconds: pictures, maps, clouds and films are made into files
+  script,   // up to 20 s: scenes are evaluated and checked
+};
+
+/// A request at its handler.
+struct Call {
+  const ApiRequest& request;
+  const Doors& doors;
+  std::vector<std::string> arguments;        // what stands for {id} and {name}
+  std::map<std::string, std::string> query;  // decoded
+};
+
+constexpr std::uint64_t command_limit = 64 * 1024;  // bytes of a body
+
+/// A handler runs on a thread of its kind of work. It may throw ApiError and what the rooms that it calls
+/// throw; a picture that is still being made is no reason to wait: it answers 202.
+struct Route {
+  std::string_view method, path;  // "/api/v1/jobs/{id}"
+  ApiResponse (*handle)(const Call&);
+  Work work = Work::command;
+  std::uint64_t body_limit = command_limit;
+};
+
+std::span<const Route> job_routes();
+std::span<const Route> picture_routes();
+std::span<const Route> worker_routes();
+std::span<const Route> page_routes();
+
+// What handlers share.
+
+ApiResponse shown(const nlohmann::json& value);
+/// The job in the path. Throws ApiError.
+JobId job_id(const Call& call);
+/// The members of a command's body; an empty body has none. Throws ApiError.
+nlohmann::json body_of(const Call& call);
+
+}  // namespace rayfarm
