@@ -1,5 +1,6 @@
 #include "master/diagnostics/statistics.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "common/render/pixel.h"
@@ -17,6 +18,15 @@ struct HitCounter : CountingObserver {
     if (hit) ++hits[hit->leaf];
   }
 };
+
+}  // namespace
+
+Statistics& Statistics::operator+=(const Statistics& other) {
+  rays += other.rays;
+  hits.resize(std::max(hits.size(), other.hits.size()));
+  for (std::size_t leaf = 0; leaf < other.hits.size(); ++leaf) hits[leaf] += other.hits[leaf];
+  return *this;
+}
 
 std::optional<Statistics> statistics_of_tile(const World& world, const RenderSettings& settings,
                                              std::uint32_t number, const std::function<bool()>& stop) {
@@ -36,8 +46,6 @@ std::optional<Statistics> statistics_of_tile(const World& world, const RenderSet
   return result;
 }
 
-}  // namespace
-
 std::optional<Statistics> statistics_of(
     const World& world, const RenderSettings& settings, unsigned threads, const std::function<bool()>& stop,
     const std::function<void(std::uint32_t done, std::uint32_t all)>& progress) {
@@ -49,8 +57,7 @@ std::optional<Statistics> statistics_of(
     const auto part = statistics_of_tile(world, settings, tile, stop);
     if (!part) return false;
     const std::lock_guard lock(mutex);
-    total.rays += part->rays;
-    for (std::size_t leaf = 0; leaf < total.hits.size(); ++leaf) total.hits[leaf] += part->hits[leaf];
+    total += *part;
     ++done;
     return true;
   };

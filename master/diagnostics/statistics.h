@@ -14,7 +14,13 @@ struct Statistics {
   RayCounters rays;                 // as a render counts them
   std::vector<std::uint64_t> hits;  // by leaf: primary, reflected and refracted rays that met it first
   bool operator==(const Statistics&) const = default;
+  /// Of another part of the picture.
+  Statistics& operator+=(const Statistics& other);
 };
+
+/// Of one tile's pixels; nothing when stop() said so.
+std::optional<Statistics> statistics_of_tile(const World& world, const RenderSettings& settings,
+                                             std::uint32_t tile, const std::function<bool()>& stop);
 
 /// Renders the picture without keeping it. `progress` hears the tiles done and all tiles; nothing is returned
 /// when stop() said so; it is asked from all threads.
