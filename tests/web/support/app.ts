@@ -1,0 +1,49 @@
+// The app in headless Chromium, as a person would use it.
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { type Browser, type Page, chromium } from "playwright-core";
+
+const screenshots = fileURLToPath(new URL("../screenshots", import.meta.url));
+
+export interface App {
+  page: Page;
+  /// What the browser complained about; a test of a healthy app expects it to be empty.
+  complaints: string[];
+  close(): Promise<void>;
+}
+
+let browser: Browser | null = null;
+
+export async function openApp(url: string, view: { width?: number; height?: number; dark?: boolean } = {}): Promise<App> {
+  browser ??= await chromium.launch({
+    executablePath: "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--enable-unsafe-swiftshader"],
+  });
+  const context = await browser.newContext({
+    viewport: { width: view.width ?? 1366, height: view.height ?? 768 },
+    colorScheme: view.dark ? "dark" : "light",
+    acceptDownloads: true,
+  });
+  const page = await context.newPage();
+  const complaints: string[] = [];
+  page.on("console", (message) => {
+    // Reading frames back for screenshots makes the software renderer warn.
+    if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
+      complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  await page.goto(url);
+  return { page, complaints, close: () => context.close() };
+}
+
+export async function closeBrowser(): Promise<void> {
+  await browser?.close();
+  browser = null;
+}
+
+/// Kept beside the tests, for people to look at.
+export async function screenshot(page: Page, name: string): Promise<void> {
+  mkdirSync(screenshots, { recursive: true });
+  await page.screenshot({ path: join(screenshots, `${name}.png`) });
+}
