@@ -1,10 +1,11 @@
 // The app in headless Chromium, as a person would use it.
 import { mkdirSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { fileURLToPath } from "node:url";
 import { type Browser, type Page, chromium } from "playwright-core";
 
-const screenshots = fileURLToPath(new URL("../screenshots", import.meta.url));
+const screenshots =
+  process.env.RAYFARM_SCREENSHOTS ?? join(process.env.RAYFARM_BUILD ?? tmpdir(), "rayfarm-screenshots");
 
 export interface App {
   page: Page;
@@ -42,7 +43,7 @@ export async function closeBrowser(): Promise<void> {
   browser = null;
 }
 
-/// Kept beside the tests, for people to look at.
+/// For people to look at; those of tests/web/screenshots were made with RAYFARM_SCREENSHOTS=that folder.
 export async function screenshot(page: Page, name: string): Promise<void> {
   mkdirSync(screenshots, { recursive: true });
   await page.screenshot({ path: join(screenshots, `${name}.png`) });
