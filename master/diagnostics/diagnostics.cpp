@@ -1,0 +1,113 @@
+#include "master/diagnostics/diagnostics.h"
+
+namespace rayfarm {
+namespace {
+
+Size size_of(const RenderSettings& settings) { return {settings.width, settings.height}; }
+
+/// What has no bearing on the values is as by default, so that equal maps have equal requests.
+MapRequest essence_of(const MapRequest& request) {
+  MapRequest essence{request.kind};
+  if (request.kind->reduces) essence.reduction = request.reduction;
+  if (request.kind->has_compatible) essence.compatible = request.compatible;
+  return essence;
+}
+
+/// The values of a pass of a tile in their travelling order; none when stopped.
+std::optional<std::vector<float>> pass_values(PixelMapper& mapper, const Tile& tile, int pass,
+                                              std::size_t channels, const Background::Stop& stop) {
+  std::vector<float> values(pixel_count(tile, pass) * channels);
+  float* value = values.data();
+  bool stopped = false;
+  for_each_pixel(tile, pass, [&](std::uint32_t x, std::uint32_t y) {
+    stopped = stopped || !mapper.put({x, y}, value, stop);
+    value += channels;
+  });
+  if (stopped) return std::nullopt;
+  return values;
+}
+
+template <class Thing>
+Made<Thing> made(Standing standing, std::shared_ptr<const Thing> thing) {
+  if (standing.state != LayerProgress::done) thing.reset();
+  return {std::move(standing), std::move(thing)};
+}
+
+}  // namespace
+
+Diagnostics::Diagnostics(unsigned threads, Clock now, const DiagnosticsLimits& limits)
+    : worlds_(limits.worlds),
+      maps_(limits.maps, now),
+      statistics_(limits.statistics, now),
+      background_(threads, now) {}
+
+Diagnostics::~Diagnostics() = default;
+
+std::shared_ptr<const ReadyScene> Diagnostics::scene(const Subject& subject) {
+  return worlds_.get(subject.scene_hash, subject.scene);
+}
+
+// Maps. ----------------------------------------------------------------------------------------------------
+
+std::shared_ptr<Diagnostics::InMaking<GrowingMap>> Diagnostics::map_in_making(const Subject& subject,
+                                                                              const MapRequest& asked) {
+  const MapRequest request = essence_of(asked);
+  const Size size = size_of(subject.settings);
+  const std::size_t channels = request.kind->channels.size();
+  const std::uint64_t bytes = std::uint64_t{size.width} * size.height * channels * sizeof(float);
+  return maps_.get({subject.scene_hash, subject.settings, request}, bytes, [&] {
+    const auto map = std::make_shared<GrowingMap>(size, channels);
+    // All tiles coarse first, as one sees a picture come.
+    const auto do_part = [this, subject, request, map, order = centre_first(size)](
+                             std::uint32_t part, const Background::Stop& stop) {
+      const auto pass = static_cast<int>(part / order.size());
+      const std::uint32_t tile = order[part % order.size()];
+      const auto ready = scene(subject);
+      PixelMapper mapper(ready->world(), subject.settings, request);
+      const auto values = pass_values(mapper, tile_at(size_of(subject.settings), tile), pass,
+                                      request.kind->channels.size(), stop);
+      if (values) map->put(tile, pass, *values);
+      return values.has_value();
+    };
+    return std::make_shared<InMaking<GrowingMap>>(
+        InMaking<GrowingMap>{map, background_.add({tile_count(size) * pass_count, do_part})});
+  });
+}
+
+LayerNews Diagnostics::map_news(const Subject& subject, const MapRequest& request,
+                                const std::vector<PassSet>& known, std::uint32_t most_tiles) {
+  const auto map = map_in_making(subject, request);
+  const Standing standing = background_.ask(map->task);
+  LayerNews news = map->product->news(known, most_tiles);
+  news.state.state = standing.state;
+  news.state.message = standing.message;
+  return news;
+}
+
+Made<Map> Diagnostics::map(const Subject& subject, const MapRequest& request) {
+  const auto map = map_in_making(subject, request);
+  return made(background_.ask(map->task), std::shared_ptr<const Map>(map->product, &map->product->whole()));
+}
+
+// Statistics. ----------------------------------------------------------------------------------------------
+
+Made<Statistics> Diagnostics::statistics(const Subject& subject) {
+  const std::uint64_t bytes = subject.scene->size();  // a leaf is more bytes in it than a number of hits
+  const auto statistics = statistics_.get({subject.scene_hash, subject.settings, {}}, bytes, [&] {
+    const auto growing = std::make_shared<GrowingStatistics>();
+    const auto do_part = [this, subject, growing](std::uint32_t tile, const Background::Stop& stop) {
+      const auto ready = scene(subject);
+      const auto part = statistics_of_tile(ready->world(), subject.settings, tile, stop);
+      if (!part) return false;
+      const std::lock_guard lock(growing->mutex);
+      growing->total += *part;
+      return true;
+    };
+    return std::make_shared<InMaking<GrowingStatistics>>(InMaking<GrowingStatistics>{
+        growing, background_.add({tile_count(size_of(subject.settings)), do_part})});
+  });
+  return made(background_.ask(statistics->task),
+              std::shared_ptr<const Statistics>(statistics->product, &statistics->product->total));
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,89 @@
+// What can be known of a picture beside its pixels, made when somebody asks and kept for the next one.
+//
+// Everything follows from a scene and settings alone, so it is the same before, while and after a farm renders
+// them. Maps, statistics and clouds are made in the background; they are done when their questions find them so.
+// All calls are made from any thread; none but scene() and trace() takes long.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "master/diagnostics/background.h"
+#include "master/diagnostics/growing_map.h"
+#include "master/diagnostics/shelf.h"
+#include "master/diagnostics/statistics.h"
+#include "master/diagnostics/world_cache.h"
+
+namespace rayfarm {
+
+/// What is looked into.
+struct Subject {
+  std::string scene_hash;  // of the bytes
+  SharedBytes scene;       // encode_scene()
+  RenderSettings settings;
+};
+
+/// Something that is being made, or was.
+template <class Thing>
+struct Made {
+  Standing standing;
+  std::shared_ptr<const Thing> thing;  // when it is done
+};
+
+/// What is kept, and how much may be asked for at once.
+struct DiagnosticsLimits {
+  ShelfLimits maps{.bytes = 512 << 20, .wanted = std::uint64_t{2} << 30, .things = 1000};
+  ShelfLimits statistics{.bytes = 256 << 20, .wanted = std::uint64_t{1} << 30, .things = 1000};
+  WorldCache::Limits worlds;
+};
+
+class Diagnostics {
+ public:
+  explicit Diagnostics(unsigned threads, Clock now = steady_now, const DiagnosticsLimits& limits = {});
+  /// Waits for the scenes that are being built, for all else not much longer than a ray takes.
+  ~Diagnostics();
+
+  // Each call keeps its subject's map in the making. The kind must have values without a farm. They throw
+  // TooMuchAsked.
+  LayerNews map_news(const Subject& subject, const MapRequest& request, const std::vector<PassSet>& known,
+                     std::uint32_t most_tiles);
+  Made<Map> map(const Subject& subject, const MapRequest& request);
+  /// Throws TooMuchAsked.
+  Made<Statistics> statistics(const Subject& subject);
+
+  /// Builds it unless it is here. Throws what the scene's decoding throws.
+  std::shared_ptr<const ReadyScene> scene(const Subject& subject);
+
+  /// One part of what is being made, on the calling thread; false: there is nothing to do.
+  bool work_once() { return background_.work_once(); }
+
+ private:
+  template <class Request>
+  struct Key {
+    std::string scene_hash;
+    RenderSettings settings;
+    Request request;
+    bool operator==(const Key&) const = default;
+  };
+  struct Nothing {
+    bool operator==(const Nothing&) const = default;
+  };
+  /// The product and the task that fills it.
+  template <class Product>
+  struct InMaking {
+    std::shared_ptr<Product> product;
+    Background::TaskRef task;
+  };
+  struct GrowingStatistics {
+    std::mutex mutex;  // guards total until all parts are done
+    Statistics total;
+  };
+
+  std::shared_ptr<InMaking<GrowingMap>> map_in_making(const Subject& subject, const MapRequest& request);
+
+  WorldCache worlds_;
+  Shelf<Key<MapRequest>, InMaking<GrowingMap>> maps_;
+  Shelf<Key<Nothing>, InMaking<GrowingStatistics>> statistics_;
+  Background background_;  // last: its threads end before what they use
+};
+
+}  // namespace rayfarm

@@ -1,0 +1,65 @@
+#include "master/diagnostics/growing_map.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace rayfarm {
+
+GrowingMap::GrowingMap(Size size, std::size_t channels)
+    : order_(centre_first(size)), map_{size, channels, {}}, done_(tile_count(size)) {}
+
+void GrowingMap::put(std::uint32_t tile, int pass, const std::vector<float>& values) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t width = map_.size.width, channels = map_.channels;
+  if (map_.values.empty()) map_.values.resize(width * map_.size.height * channels);  // late: it may be big
+  assert(!(done_[tile] >> pass & 1));
+  const float* value = values.data();
+  for_each_pixel(tile_at(map_.size, tile), pass, [&](std::uint32_t x, std::uint32_t y) {
+    std::copy_n(value, channels, &map_.values[(y * width + x) * channels]);
+    value += channels;
+  });
+  done_[tile] |= static_cast<PassSet>(1u << pass);
+  pixels_done_ += values.size() / channels;
+  widen(range_, values);
+}
+
+LayerNews GrowingMap::news(const std::vector<PassSet>& known, std::uint32_t most_tiles) const {
+  const std::lock_guard lock(mutex_);
+  const Size size = map_.size;
+  LayerNews news;
+  news.state.size = size, news.state.channels = map_.channels, news.state.range = range_;
+  news.state.share_done = static_cast<double>(pixels_done_) / (static_cast<double>(size.width) * size.height);
+  for (const std::uint32_t number : tiles_with_news(order_, done_, known, most_tiles)) {
+    const Tile tile = tile_at(size, number);
+    TileNews& one = news.tiles.emplace_back(TileNews{number, done_[number], {}});
+    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+      const float* row = &map_.values[(std::size_t{y} * size.width + tile.x0) * map_.channels];
+      one.values.insert(one.values.end(), row, row + (tile.x1 - tile.x0) * map_.channels);
+    }
+  }
+  return news;
+}
+
+std::vector<std::uint32_t> tiles_with_news(const std::vector<std::uint32_t>& order,
+                                           const std::vector<PassSet>& done,
+                                           const std::vector<PassSet>& known, std::uint32_t most_tiles) {
+  std::vector<std::uint32_t> tiles;
+  for (const std::uint32_t tile : order) {
+    if (tiles.size() == most_tiles) break;
+    const unsigned seen = known.empty() ? 0u : known[tile];
+    if (done[tile] & ~seen) tiles.push_back(tile);
+  }
+  return tiles;
+}
+
+void widen(std::optional<std::array<double, 2>>& range, const std::vector<float>& values) {
+  for (const float value : values) {
+    if (!std::isfinite(value)) continue;
+    if (!range) range = {value, value};
+    (*range)[0] = std::min<double>((*range)[0], value);
+    (*range)[1] = std::max<double>((*range)[1], value);
+  }
+}
+
+}  // namespace rayfarm
