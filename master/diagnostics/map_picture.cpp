@@ -11,24 +11,19 @@
 namespace rayfarm {
 namespace {
 
-using Rgb = std::array<double, 3>;  // 0..255 as shown
+std::uint8_t byte_of(double whole) { return static_cast<std::uint8_t>(whole); }
 
-struct Range {
-  double low = infinity, high = -infinity;  // of the finite values; low > high when there are none
-};
+constexpr MapColor black{0, 0, 0};
 
-Range range_of(const std::vector<float>& values) {
-  Range range;
-  for (const double v : values)
-    if (std::isfinite(v)) range.low = least(range.low, v), range.high = greatest(range.high, v);
-  return range;
+/// Where a value lies between the range's ends, 0 to 1.
+double share_of(double value, const MapRange& range) {
+  return std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
 }
 
-/// Hue 240 (blue) for the lowest to 0 (red) for the highest, full colours.
-Rgb count_color(double value, const Range& range) {
-  const double hue = range.low == range.high ? 0 : 240 - 240 * (value - range.low) / (range.high - range.low);
-  const double sextant = hue / 60, part = sextant - std::floor(sextant);
-  const double up = std::floor(255 * part + 0.5), down = std::floor(255 * (1 - part) + 0.5);
+/// Hue 240 (blue) at 0 to 0 (red) at 1, full colours.
+MapColor rainbow(double share) {
+  const double sextant = 4 - 4 * share, part = sextant - std::floor(sextant);
+  const auto up = byte_of(std::floor(255 * part + 0.5)), down = byte_of(std::floor(255 * (1 - part) + 0.5));
   if (sextant < 1) return {255, up, 0};
   if (sextant < 2) return {down, 255, 0};
   if (sextant < 3) return {0, 255, up};
@@ -36,51 +31,112 @@ Rgb count_color(double value, const Range& range) {
   return {up, 0, 255};
 }
 
-Rgb depth_color(double value, const Range& range) {
-  if (!std::isfinite(value)) return {0, 0, 0};
+/// Linear between nine of viridis' colours.
+MapColor viridis(double share) {
+  constexpr std::array<MapColor, 9> colors{{{0x44, 0x01, 0x54},
+                                            {0x47, 0x2d, 0x7b},
+                                            {0x3b, 0x52, 0x8b},
+                                            {0x2c, 0x72, 0x8e},
+                                            {0x21, 0x91, 0x8c},
+                                            {0x28, 0xae, 0x80},
+                                            {0x5e, 0xc9, 0x62},
+                                            {0xad, 0xdc, 0x30},
+                                            {0xfd, 0xe7, 0x25}}};
+  const double place = share * (colors.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), colors.size() - 2);
+  MapColor color;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double step = colors[below + 1][c] - colors[below][c];
+    color[c] = byte_of(std::floor(colors[below][c] + step * (place - static_cast<double>(below)) + 0.5));
+  }
+  return color;
+}
+
+MapColor count_color(double value, MapPalette palette, const MapRange& range) {
+  if (!std::isfinite(value)) return black;
+  // As the original: where all are equal, all are many.
+  const double share = range.low < range.high ? share_of(value, range) : 1;
+  return palette == MapPalette::original ? rainbow(share) : viridis(share);
+}
+
+MapColor grey(double byte) { return {byte_of(byte), byte_of(byte), byte_of(byte)}; }
+
+MapColor original_depth(double value, const MapRange& range) {
   const double most = deterministic::log(range.high - range.low + 1);
-  const double share = most > 0 ? deterministic::log(value - range.low + 1) / most : 0;
-  const double grey = 255 - std::floor(255 * share);
-  return {grey, grey, grey};
+  const double behind = std::clamp(value, range.low, range.high) - range.low;
+  return grey(255 - std::floor(255 * (most > 0 ? deterministic::log(behind + 1) / most : 0)));
 }
 
-Rgb normal_color(const float* n) {
-  if (!std::isfinite(n[0])) return {0, 0, 0};
-  const auto byte = [](double component) { return std::floor((component + 1) * 127.499); };
-  return {byte(n[0]), byte(n[1]), 255 - byte(n[2])};
+MapColor perceptual_depth(double value, const MapRange& range) {
+  constexpr double nearest = 97, farthest = 12;  // CIE lightness; nothing has 0
+  const double low = greatest(range.low, 1e-6 * range.high);
+  const double share =
+      low < range.high
+          ? std::clamp(deterministic::log(greatest(value, low) / low) / deterministic::log(range.high / low),
+                       0.0, 1.0)
+          : 0;
+  // Luminance by CIE 15, for lightness above 8.
+  const double luminance = deterministic::pow((nearest + (farthest - nearest) * share + 16) / 116, 3);
+  return grey(std::floor(255 * deterministic::pow(luminance, 1 / 2.2) + 0.5));
 }
 
-/// Hues a golden angle apart: neighbours in number differ most.
-Rgb label_color(double value) {
-  if (!std::isfinite(value)) return {0, 0, 0};
-  const double turns = value * 0.6180339887;
-  return count_color(turns - std::floor(turns), {0, 1});
+MapColor depth_color(double value, MapPalette palette, const MapRange& range) {
+  if (!std::isfinite(value)) return black;
+  return palette == MapPalette::original ? original_depth(value, range) : perceptual_depth(value, range);
 }
 
-Rgb color_of(const float* value, MapScale scale, const Range& range) {
+MapColor normal_color(const float* n) {
+  if (!std::isfinite(n[0])) return black;
+  const auto byte = [](double component) { return byte_of(std::floor((component + 1) * 127.499)); };
+  return {byte(n[0]), byte(n[1]), static_cast<std::uint8_t>(255 - byte(n[2]))};
+}
+
+/// Hues a golden section of the circle apart: neighbours in number differ most.
+MapColor label_color(double value) {
+  if (!std::isfinite(value)) return black;
+  const double turns = value * 0.6180339887498949;
+  return rainbow(turns - std::floor(turns));
+}
+
+}  // namespace
+
+std::optional<MapPalette> palette_named(std::string_view name) {
+  if (name == "original") return MapPalette::original;
+  if (name == "perceptual") return MapPalette::perceptual;
+  return std::nullopt;
+}
+
+MapRange range_of(const Map& map) {
+  MapRange range{infinity, -infinity};
+  for (const double v : map.values)
+    if (std::isfinite(v)) range.low = least(range.low, v), range.high = greatest(range.high, v);
+  return range;
+}
+
+MapColor color_of(const float* value, MapScale scale, MapPalette palette, const MapRange& range) {
   switch (scale) {
     case MapScale::depth:
-      return depth_color(*value, range);
+      return depth_color(*value, palette, range);
     case MapScale::count:
-      return count_color(*value, range);
+      return count_color(*value, palette, range);
     case MapScale::normal:
       return normal_color(value);
     case MapScale::label:
       return label_color(*value);
   }
-  return {};
+  return black;
 }
 
-}  // namespace
-
-Picture colored(const Map& map, const MapKind& kind) {
-  const Range range = range_of(map.values);
+Picture colored(const Map& map, const MapKind& kind, const MapColors& colors) {
+  std::array<float, 256> linear;
+  for (std::size_t byte = 0; byte < linear.size(); ++byte)
+    linear[byte] = static_cast<float>(deterministic::pow(static_cast<double>(byte) / 255, 2.2));
+  const MapRange range = colors.range.value_or(range_of(map));
   Picture picture{map.size, {}, {}};
   picture.rgb.reserve(map.values.size() / map.channels * 3);
   for (std::size_t i = 0; i < map.values.size(); i += map.channels)
-    // Linear, so that the picture's gamma of 2.2 gives the bytes again.
-    for (const double byte : color_of(&map.values[i], kind.scale, range))
-      picture.rgb.push_back(static_cast<float>(deterministic::pow(byte / 255, 2.2)));
+    for (const std::uint8_t byte : color_of(&map.values[i], kind.scale, colors.palette, range))
+      picture.rgb.push_back(linear[byte]);
   return picture;
 }
 

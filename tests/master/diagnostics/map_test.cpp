@@ -207,6 +207,55 @@ TEST(MapColors, AreTheOriginals) {
             (std::vector<int>{127, 127, 255, 254, 127, 128, 0, 0, 0}));
 }
 
+TEST(MapColors, OfAFixedRangeAreTheSameInEveryPicture) {
+  const MapColors fixed{MapPalette::original, MapRange{0, 100}};
+  const std::vector<int> few = bytes_of(colored({{2, 1}, 1, {0, 50}}, *all_rays, fixed));
+  const std::vector<int> more = bytes_of(colored({{2, 1}, 1, {50, 1000}}, *all_rays, fixed));
+  EXPECT_EQ(few, (std::vector<int>{0, 0, 255, 0, 255, 0}));
+  EXPECT_EQ(more, (std::vector<int>{0, 255, 0, 255, 0, 0}));  // 1000 as 100
+}
+
+TEST(MapColors, OfThePerceptualPaletteGrowLighterEvenly) {
+  const auto lightness = [](const MapColor& c) {  // CIE 15, of sRGB primaries at gamma 2.2
+    const auto linear = [](std::uint8_t byte) { return std::pow(byte / 255.0, 2.2); };
+    const double y = 0.2126 * linear(c[0]) + 0.7152 * linear(c[1]) + 0.0722 * linear(c[2]);
+    return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
+  };
+  const auto at = [&](MapScale scale, double value) {
+    const auto number = static_cast<float>(value);
+    return lightness(color_of(&number, scale, MapPalette::perceptual, {1, 17}));
+  };
+  const double count_step = (at(MapScale::count, 17) - at(MapScale::count, 1)) / 16;
+  const double depth_step = (at(MapScale::depth, 1) - at(MapScale::depth, 17)) / 16;
+  EXPECT_GT(count_step, 4);
+  EXPECT_GT(depth_step, 4);
+  for (int i = 0; i < 16; ++i) {
+    EXPECT_NEAR(at(MapScale::count, i + 2) - at(MapScale::count, i + 1), count_step,
+                0.4 * count_step);  // viridis is even in another model of lightness, CAM02-UCS
+    const double near = std::pow(17, i / 16.0), far = std::pow(17, (i + 1) / 16.0);
+    EXPECT_NEAR(at(MapScale::depth, near) - at(MapScale::depth, far), depth_step, 0.3 * depth_step);
+  }
+}
+
+TEST(MapColors, OfALegendAreThoseOfThePicture) {
+  for (const MapKind& kind : all_maps()) {
+    Map map{{20, 50}, kind.channels.size(), {}};
+    for (std::size_t i = 0; i < 1000 * map.channels; ++i)
+      map.values.push_back(kind.scale == MapScale::normal ? 0.6f : static_cast<float>(i / 10));
+    const Picture plain = colored(map, kind), with = colored_with_legend(map, kind);
+    ASSERT_GT(with.size.width, 20u);
+    for (std::size_t y = 0; y < 50; ++y)
+      for (std::size_t i = 0; i < 60; ++i)
+        ASSERT_EQ(with.rgb[3 * y * with.size.width + i], plain.rgb[60 * y + i]) << kind.name;
+    if (kind.scale != MapScale::count && kind.scale != MapScale::depth) continue;
+    const std::size_t bar = 3 * (20 + 6), top = bar, bottom = bar + 49 * 3 * with.size.width;
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(with.rgb[top + c], plain.rgb[3 * 999 + c]) << kind.name;
+      EXPECT_EQ(with.rgb[bottom + c], plain.rgb[c]) << kind.name;
+    }
+  }
+}
+
 TEST(MapKinds, HaveNamesOfTheirOwnAndWordsForPeople) {
   std::set<std::string_view> names, channels;
   std::size_t channel_count = 0;
