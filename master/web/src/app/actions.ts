@@ -8,8 +8,8 @@ export interface Action {
   title: string; // as the palette shows it: "Zoom in"
   group: Group;
   keys: string[]; // "Shift+E", "Ctrl+K", "ArrowLeft", "?"; the first is shown
-  /// "rays": the keys count only while the 3D view has the focus, and go before those of the others.
-  scope?: "rays";
+  /// The keys count only while the focus is inside [data-scope=...], and go before those of the others.
+  scope?: "rays" | "jobs";
   enabled?: () => boolean;
   run: () => void;
 }

@@ -1,37 +1,11 @@
 // The WebSocket that brings news: jobs, workers, log, and the tiles of the layers that are watched.
-import type { LayerMessage, TileMessage, Watch } from "./types";
-
-/// Of a binary message; throws when it is none.
-export function decodeTile(buffer: ArrayBuffer): TileMessage {
-  const view = new DataView(buffer);
-  if (buffer.byteLength < 32 || view.getUint32(0, true) !== 0x31544652) throw new Error("not a tile");
-  const channels = view.getUint8(26);
-  const half = view.getUint8(27) === 0;
-  return {
-    id: view.getUint32(4, true),
-    x: view.getUint32(8, true),
-    y: view.getUint32(12, true),
-    width: view.getUint32(16, true),
-    height: view.getUint32(20, true),
-    stride: view.getUint16(24, true),
-    channels,
-    values: half ? fromHalves(new Uint16Array(buffer, 32)) : new Float32Array(buffer, 32),
-  };
-}
-
-function fromHalves(halves: Uint16Array): Float32Array {
-  const values = new Float32Array(halves.length);
-  for (let i = 0; i < halves.length; ++i) values[i] = fromHalf(halves[i]!);
-  return values;
-}
-
-export function fromHalf(half: number): number {
-  const sign = half & 0x8000 ? -1 : 1;
-  const exponent = (half >> 10) & 31;
-  const fraction = half & 1023;
-  if (exponent === 31) return fraction ? NaN : sign * Infinity;
-  return exponent ? sign * (1 + fraction / 1024) * 2 ** (exponent - 15) : sign * fraction * 2 ** -24;
-}
+import { batch } from "@preact/signals";
+import { getJson } from "./api";
+import { hear } from "./clock";
+import { startLive, type LiveClient, type News, type Socket } from "./live_client";
+import { reconcile } from "./reconcile";
+import { jobs, link, log, lostSince, malformed, maps, tellError, workers } from "./state";
+import type { LayerMessage, LogLine, MapEntry, TileMessage, Watch } from "./types";
 
 export interface LayerListener {
   layer(message: LayerMessage): void;
@@ -39,15 +13,75 @@ export interface LayerListener {
 }
 
 const listeners = new Set<LayerListener>();
-let watched: Watch[] = [];
+let watched: readonly Watch[] = [];
+let client: LiveClient | null = null;
 
 /// Asks for exactly these layers from now on (at most 8), also after the connection was lost and found again.
 export function watch(list: Watch[]): void {
   watched = list;
+  client?.watch(list);
 }
 export const watches = (): readonly Watch[] => watched;
 
 export function listen(listener: LayerListener): () => void {
   listeners.add(listener);
   return () => listeners.delete(listener);
+}
+
+export const retry = (): void => client?.retry();
+
+const mostLines = 2000; // of the log
+
+function withLines(old: LogLine[], lines: LogLine[]): LogLine[] {
+  const last = old[old.length - 1]?.number ?? -1;
+  return [...old, ...lines.filter((line) => line.number > last)].slice(-mostLines);
+}
+
+const news: News = {
+  opened() {
+    link.value = "open";
+    lostSince.value = null;
+    getJson<{ maps: MapEntry[] }>("/maps").then((answer) => (maps.value = answer.maps), tellError);
+  },
+  lost() {
+    link.value = "lost";
+    lostSince.value ??= Date.now();
+  },
+  state(newJobs, newWorkers) {
+    batch(() => {
+      const time = Date.now();
+      hear(newJobs, time);
+      hear(newWorkers, time);
+      jobs.value = reconcile(jobs.value, newJobs, (job) => job.id);
+      workers.value = reconcile(workers.value, newWorkers, (worker) => worker.name);
+    });
+  },
+  log(lines, anew) {
+    hear(lines, Date.now());
+    log.value = anew ? lines : withLines(log.value, lines);
+  },
+  layer(message) {
+    for (const listener of listeners) listener.layer(message);
+  },
+  tile(message) {
+    for (const listener of listeners) listener.tile(message);
+  },
+  malformed() {
+    ++malformed.value;
+  },
+};
+
+export function goLive(): void {
+  const scheme = location.protocol === "https:" ? "wss" : "ws";
+  client = startLive(
+    {
+      connect: () => new WebSocket(`${scheme}://${location.host}/api/v1/live`) as unknown as Socket,
+      after(milliseconds, run) {
+        const timer = setTimeout(run, milliseconds);
+        return () => clearTimeout(timer);
+      },
+    },
+    news,
+  );
+  client.watch(watched);
 }

@@ -16,6 +16,10 @@ export const maps = signal<MapEntry[]>([]);
 /// Of the connection that brings news.
 export type Link = "connecting" | "open" | "lost";
 export const link = signal<Link>("connecting");
+/// Since when it is lost, milliseconds.
+export const lostSince = signal<number | null>(null);
+/// Messages of the master that made no sense.
+export const malformed = signal(0);
 
 export const selectedId = signal<number | null>(null);
 export const selectedJob = computed<Job | null>(() => jobs.value.find((job) => job.id === selectedId.value) ?? null);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { decodeTile, fromHalf } from "../../../master/web/src/app/live";
+import { decodeTile, fromHalf } from "../../../master/web/src/app/tile";
 
 describe("half floats", () => {
   it("are what IEEE 754 says", () => {

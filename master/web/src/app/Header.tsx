@@ -1,0 +1,73 @@
+import { computed } from "@preact/signals";
+import { actions } from "./actions";
+import { many, short } from "./format";
+import { Icon } from "./Icon";
+import { hashOf, page, type Page } from "./route";
+import { jobs, link, raysShown, selectedId, workers } from "./state";
+import { theme } from "./theme";
+import "./header.css";
+
+const pages: { page: Page; title: string }[] = [
+  { page: "jobs", title: "Jobs" },
+  { page: "workers", title: "Workers" },
+  { page: "submit", title: "New job" },
+];
+
+const summary = computed(() => {
+  const there = workers.value.filter((worker) => worker.state !== "dialling" && worker.state !== "banned");
+  const busy = there.filter((worker) => worker.state === "busy");
+  const speed = busy.reduce((sum, worker) => sum + worker.samples_per_second, 0);
+  const running = jobs.value.filter((job) => job.state === "running").length;
+  const waiting = jobs.value.filter((job) => job.state === "waiting").length;
+  return [
+    there.length === 0 ? "no workers" : `${busy.length} of ${many(there.length, "worker")} busy`,
+    ...(speed > 0 ? [`${short(speed)} samples/s`] : []),
+    ...(running + waiting > 0 ? [`${running} running, ${waiting} waiting`] : []),
+  ];
+});
+
+const words = { connecting: "connecting", open: "connected", lost: "connection lost" };
+
+export function Header() {
+  return (
+    <header class="header">
+      <h1>rayfarm</h1>
+      <nav aria-label="Pages">
+        {pages.map((entry) => (
+          <a
+            key={entry.page}
+            href={hashOf({ page: entry.page, job: selectedId.value, query: {} })}
+            aria-current={page.value === entry.page ? "page" : undefined}
+          >
+            {entry.title}
+          </a>
+        ))}
+      </nav>
+      <p class="summary" title="The farm now">
+        <span class={`dot ${link.value}`} role="img" aria-label={words[link.value]} title={words[link.value]} />
+        {summary.value.map((part) => (
+          <span key={part}>{part}</span>
+        ))}
+      </p>
+      <div class="tools" role="toolbar" aria-label="View">
+        <Tool id="palette" icon="search" />
+        <Tool id="panels" icon="panel" />
+        <Tool id="rays" icon="rays" pressed={raysShown.value} />
+        <Tool id="theme" icon={theme.value === "dark" ? "sun" : "moon"} />
+        <Tool id="help" text="?" />
+      </div>
+    </header>
+  );
+}
+
+/// A button for an action that is also on a key.
+function Tool({ id, icon, text, pressed }: { id: string; icon?: Parameters<typeof Icon>[0]["name"]; text?: string; pressed?: boolean }) {
+  const action = actions.value.find((one) => one.id === id);
+  if (!action) return null;
+  const key = action.keys[0];
+  return (
+    <button class="plain" aria-label={action.title} aria-pressed={pressed} title={key ? `${action.title} (${key})` : action.title} onClick={action.run}>
+      {icon ? <Icon name={icon} /> : text}
+    </button>
+  );
+}

@@ -1,0 +1,100 @@
+// The address after #: which page, which job, and how it is looked at; so that links and the back button work.
+//   #/jobs/7?layer=depth&reduce=mean    #/submit?from=7    #/workers
+import { batch, effect, signal } from "@preact/signals";
+import { layer, selectedId } from "./state";
+import type { LayerChoice, Reduction } from "./types";
+
+export type Page = "jobs" | "submit" | "workers";
+export type Query = Record<string, string>;
+
+export interface Route {
+  page: Page;
+  job: number | null; // of the page "jobs"
+  query: Query;
+}
+
+export function parse(hash: string): Route {
+  const [path = "", query = ""] = hash.replace(/^#\/?/, "").split("?", 2);
+  const [name, id] = path.split("/");
+  const page: Page = name === "submit" || name === "workers" ? name : "jobs";
+  const job = page === "jobs" && id !== undefined && /^\d{1,15}$/.test(id) ? Number(id) : null;
+  return { page, job, query: Object.fromEntries(new URLSearchParams(query)) };
+}
+
+export function hashOf(route: Route): string {
+  const job = route.page === "jobs" && route.job !== null ? `/${route.job}` : "";
+  const query = new URLSearchParams(route.query).toString();
+  return `#/${route.page}${job}${query ? `?${query}` : ""}`;
+}
+
+const reductions: readonly string[] = ["majority", "mean", "closest", "median"] satisfies Reduction[];
+
+export function layerIn(query: Query): LayerChoice {
+  const reduce = query.reduce ?? "";
+  return {
+    layer: query.layer ?? "picture",
+    reduce: reductions.includes(reduce) ? (reduce as Reduction) : "majority",
+    compat: query.compat === "1",
+  };
+}
+
+export function queryOf(choice: LayerChoice): Query {
+  return {
+    ...(choice.layer === "picture" ? {} : { layer: choice.layer }),
+    ...(choice.reduce === "majority" ? {} : { reduce: choice.reduce }),
+    ...(choice.compat ? { compat: "1" } : {}),
+  };
+}
+
+/// Whether going from one to the other is a step that the back button undoes.
+export function isStep(from: Route, to: Route): boolean {
+  return from.page !== to.page || (from.job !== to.job && from.job !== null);
+}
+
+export const page = signal<Page>("jobs");
+/// The job whose settings the form for a new one begins with.
+export const cloned = signal<number | null>(null);
+/// What else of the view is in the address: the picture's part, by keys of its own.
+export const viewQuery = signal<Query>({});
+
+export function openJob(id: number): void {
+  selectedId.value = id;
+  page.value = "jobs";
+}
+export function openSubmit(from: number | null = null): void {
+  cloned.value = from;
+  page.value = "submit";
+}
+
+function current(): Route {
+  if (page.value === "workers") return { page: "workers", job: null, query: {} };
+  if (page.value === "submit")
+    return { page: "submit", job: null, query: cloned.value === null ? {} : { from: String(cloned.value) } };
+  return { page: "jobs", job: selectedId.value, query: { ...queryOf(layer.value), ...viewQuery.value } };
+}
+
+function take(route: Route): void {
+  page.value = route.page;
+  if (route.page === "submit") cloned.value = /^\d+$/.test(route.query.from ?? "") ? Number(route.query.from) : null;
+  if (route.page !== "jobs") return;
+  const { layer: name, reduce, compat, ...others } = route.query;
+  selectedId.value = route.job ?? selectedId.value;
+  layer.value = layerIn({ ...(name && { layer: name }), ...(reduce && { reduce }), ...(compat && { compat }) });
+  viewQuery.value = others;
+}
+
+export function startRouting(): void {
+  const follow = () => batch(() => take(parse(location.hash)));
+  follow();
+  addEventListener("hashchange", follow);
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  effect(() => {
+    const route = current();
+    const hash = hashOf(route);
+    clearTimeout(timer);
+    if (hash === location.hash) return;
+    if (isStep(parse(location.hash), route)) history.pushState(null, "", hash);
+    // Browsers limit how often; while the picture is moved only where it comes to rest counts.
+    else timer = setTimeout(() => history.replaceState(null, "", hash), 200);
+  });
+}
