@@ -5,7 +5,7 @@
 #include "common/net/codec.h"
 #include "master/cli/exit_code.h"
 #include "master/cli/master_api.h"
-#include "master/cli/picture_facts.h"
+#include "master/files/picture_facts.h"
 #include "master/http/settings_json.h"
 
 namespace rayfarm {

@@ -9,11 +9,11 @@
 #include "master/cli/commands.h"
 #include "master/cli/interrupt.h"
 #include "master/cli/local_render.h"
-#include "master/cli/picture_facts.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/print_json.h"
 #include "master/cli/progress_line.h"
 #include "master/cli/text.h"
+#include "master/files/picture_facts.h"
 #include "master/http/settings_json.h"
 
 namespace rayfarm {

@@ -1,4 +1,4 @@
-#include "master/cli/picture_facts.h"
+#include "master/files/picture_facts.h"
 
 #include <charconv>
 
