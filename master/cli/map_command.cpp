@@ -1,11 +1,13 @@
 // rayfarm map: depths, normals, counts and costs, pixel by pixel.
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <thread>
 
 #include "master/cli/commands.h"
 #include "master/cli/interrupt.h"
+#include "master/files/picture_facts.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/progress_line.h"
 #include "master/diagnostics/map_picture.h"
@@ -20,11 +22,26 @@ struct MapArguments {
   PictureOptions picture;
   std::string kind, reduction = "majority", output;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  bool compatible = false;
+  bool compatible = false, legend = false;
+  std::string palette = "original";
+  std::optional<std::string> range;  // LOW,HIGH
 
   bool to_csv() const { return output.ends_with(".csv"); }
   bool to_exr() const { return output.ends_with(".exr"); }
 };
+
+std::optional<MapRange> range_of(const MapArguments& a) {
+  if (!a.range) return std::nullopt;
+  MapRange range;
+  const char *begin = a.range->data(), *end = begin + a.range->size();
+  const auto [comma, low_error] = std::from_chars(begin, end, range.low);
+  const bool two = low_error == std::errc{} && comma != end && *comma == ',';
+  const auto [last, high_error] = std::from_chars(two ? comma + 1 : end, end, range.high);
+  if (!two || high_error != std::errc{} || last != end || !(range.low < range.high) ||
+      !std::isfinite(range.high - range.low))
+    throw SettingsError("--range wants LOW,HIGH, LOW less than HIGH, as in 0,64; is " + *a.range);
+  return range;
+}
 
 std::string description(const MapRequest& request) {
   return std::string(request.kind->name) +
@@ -44,7 +61,10 @@ void write(const MapArguments& a, const PreparedScene& scene, const Map& map, co
     write_atomically(a.output, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     return;
   }
-  Picture picture = a.to_exr() ? raw(map, *request.kind) : colored(map, *request.kind);
+  const MapColors colors{*palette_named(a.palette), range_of(a)};
+  Picture picture = a.to_exr() ? raw(map, *request.kind)
+                    : a.legend ? colored_with_legend(map, *request.kind, colors)
+                               : colored(map, *request.kind, colors);
   picture.facts = facts_of(scene.hash, scene.settings);
   picture.facts["rayfarm:map"] = what;
   write_picture(a.output, picture);
@@ -58,6 +78,9 @@ MapRequest request_of(const MapArguments& a) {
                         a.kind + " --job ID");
   if (a.compatible && !request.kind->has_compatible)
     throw SettingsError("the map " + a.kind + " has no --compat: the original renderer's is the same");
+  const bool has_range = request.kind->scale == MapScale::depth || request.kind->scale == MapScale::count;
+  if (range_of(a) && !has_range)
+    throw SettingsError("the map " + a.kind + " has no range of values; leave --range out");
   return request;
 }
 
@@ -107,6 +130,16 @@ void add_map_command(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember({"majority", "mean", "closest", "median"}));
   command->add_flag("--compat", arguments->compatible,
                     "As the original renderer: all-rays without shadow rays, its formula of normal-camera");
+  command
+      ->add_option(
+          "--scale", arguments->palette,
+          "Colours of a .png: original (default: as the original renderer) or perceptual (equal steps "
+          "look equal)")
+      ->check(CLI::IsMember({"original", "perceptual"}));
+  command->add_option(
+      "--range", arguments->range,
+      "Values of the first and last colour, LOW,HIGH, to compare pictures; else the map's own");
+  command->add_flag("--legend", arguments->legend, "What the colours mean, beside the .png");
   command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
       ->check(CLI::Range(1u, 1024u));
   command->footer("Kinds:" + kinds + "\nExample: rayfarm map depth scenes/circus.lua -o depth.png");
