@@ -7,7 +7,6 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/interrupt.h"
-#include "master/files/picture_facts.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/progress_line.h"
 #include "master/diagnostics/map_picture.h"
