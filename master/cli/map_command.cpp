@@ -9,10 +9,10 @@
 #include "master/cli/interrupt.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/progress_line.h"
+#include "master/diagnostics/map_file.h"
 #include "master/diagnostics/map_picture.h"
 #include "master/files/atomic_write.h"
 #include "master/files/image_file.h"
-#include "master/files/picture_facts.h"
 
 namespace rayfarm {
 namespace {
@@ -42,21 +42,10 @@ std::optional<MapRange> range_of(const MapArguments& a) {
   return range;
 }
 
-std::string description(const MapRequest& request) {
-  return std::string(request.kind->name) +
-         (request.kind->reduces ? " " + std::string(name_of(request.reduction)) : "") +
-         (request.compatible ? " compatible" : "");
-}
-
 void write(const MapArguments& a, const PreparedScene& scene, const Map& map, const MapRequest& request) {
-  const std::string what = description(request);
+  const MapOrigin origin{request, scene.hash, scene.settings};
   if (a.to_csv()) {
-    const std::string title =
-        "rayfarm map " + what + " (" + std::string(request.kind->unit) + "), " +
-        std::to_string(map.size.width) + "x" + std::to_string(map.size.height) + " pixels, " +
-        std::to_string(scene.settings.spp) + " samples per pixel; a line is a row from the top" +
-        (map.channels == 3 ? "; x, y and z of a pixel are columns" : "") + "; inf: no surface";
-    const std::string text = csv(map, title);
+    const std::string text = csv(map, title_of(origin));
     write_atomically(a.output, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     return;
   }
@@ -64,8 +53,7 @@ void write(const MapArguments& a, const PreparedScene& scene, const Map& map, co
   Picture picture = a.to_exr() ? raw(map, *request.kind)
                     : a.legend ? colored_with_legend(map, *request.kind, colors)
                                : colored(map, *request.kind, colors);
-  picture.facts = facts_of(scene.hash, scene.settings);
-  picture.facts["rayfarm:map"] = what;
+  picture.facts = facts_of(origin);
   write_picture(a.output, picture);
 }
 

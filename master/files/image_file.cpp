@@ -81,10 +81,11 @@ std::vector<std::uint8_t> png_bytes(const Picture& picture, PngCurve curve) {
   return image_module().png(picture, bytes, curve);
 }
 
+std::vector<std::uint8_t> exr_bytes(const Picture& picture) { return image_module().exr(picture); }
+
 void write_picture(const std::filesystem::path& file, const Picture& picture, PngCurve curve) {
   check_writable(file);
-  write_atomically(file,
-                   kind_of(file) == FileKind::exr ? image_module().exr(picture) : png_bytes(picture, curve));
+  write_atomically(file, kind_of(file) == FileKind::exr ? exr_bytes(picture) : png_bytes(picture, curve));
 }
 
 Picture read_picture(const std::filesystem::path& file) {

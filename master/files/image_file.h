@@ -39,7 +39,8 @@ void check_place(const std::filesystem::path& file);
 void check_writable(const std::filesystem::path& file);
 void write_picture(const std::filesystem::path& file, const Picture& picture,
                    PngCurve curve = PngCurve::gamma22);
-/// PNG bytes, for the web page.
+/// The bytes of a file, for those who send it.
+std::vector<std::uint8_t> exr_bytes(const Picture& picture);
 std::vector<std::uint8_t> png_bytes(const Picture& picture, PngCurve curve = PngCurve::gamma22);
 /// EXR as stored; PNG values 0..1 as stored (not linearised). A file of one channel is grey, one of three of
 /// any names is taken as red, green and blue.
