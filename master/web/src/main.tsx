@@ -7,6 +7,8 @@ import { goLive } from "./app/live";
 import { startRouting } from "./app/route";
 import { startTheme } from "./app/theme";
 import { registerJobs } from "./jobs/job_actions";
+import { startSelection } from "./jobs/selection";
+import { startThroughput } from "./workers/throughput";
 import "./app/style.css";
 
 startTheme();
@@ -14,6 +16,8 @@ startRouting();
 startClock();
 registerGeneral();
 registerJobs();
+startSelection();
+startThroughput();
 startKeys();
 goLive();
 render(<App />, document.getElementById("app")!);

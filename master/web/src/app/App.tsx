@@ -1,6 +1,8 @@
 import type { ComponentType } from "preact";
 import { JobColumn } from "../jobs/JobColumn";
+import { Submit } from "../jobs/Submit";
 import { PictureArea } from "../picture/PictureArea";
+import { WorkersPage } from "../workers/WorkersPage";
 import { Confirm } from "./confirm";
 import { Header } from "./Header";
 import { Help } from "./Help";
@@ -32,6 +34,8 @@ export function App() {
         )}
         <main>
           <Viewer hidden={page.value !== "jobs"} />
+          {page.value === "submit" && <Submit />}
+          {page.value === "workers" && <WorkersPage />}
         </main>
       </div>
       <Notices />

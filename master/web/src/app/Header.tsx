@@ -2,8 +2,8 @@ import { computed } from "@preact/signals";
 import { actions } from "./actions";
 import { many, short } from "./format";
 import { Icon } from "./Icon";
-import { hashOf, page, type Page } from "./route";
-import { jobs, link, raysShown, selectedId, workers } from "./state";
+import { hashOf, page, routeTo, type Page } from "./route";
+import { jobs, link, raysShown, workers } from "./state";
 import { theme } from "./theme";
 import "./header.css";
 
@@ -36,7 +36,7 @@ export function Header() {
         {pages.map((entry) => (
           <a
             key={entry.page}
-            href={hashOf({ page: entry.page, job: selectedId.value, query: {} })}
+            href={hashOf(routeTo(entry.page))}
             aria-current={page.value === entry.page ? "page" : undefined}
           >
             {entry.title}

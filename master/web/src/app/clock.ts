@@ -10,6 +10,10 @@ const heard = new WeakMap<object, number>();
 export function hear(items: readonly object[], time: number): void {
   for (const item of items) heard.set(item, time);
 }
+/// When it happened, milliseconds.
+export function timeOf(item: { age_seconds: number }): number {
+  return (heard.get(item) ?? Date.now()) - item.age_seconds * 1000;
+}
 /// Seconds.
 export function ageOf(item: { age_seconds: number }): number {
   return item.age_seconds + Math.max(0, now.value - (heard.get(item) ?? now.value)) / 1000;

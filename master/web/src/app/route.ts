@@ -66,11 +66,16 @@ export function openSubmit(from: number | null = null): void {
   page.value = "submit";
 }
 
-function current(): Route {
-  if (page.value === "workers") return { page: "workers", job: null, query: {} };
-  if (page.value === "submit")
-    return { page: "submit", job: null, query: cloned.value === null ? {} : { from: String(cloned.value) } };
-  return { page: "jobs", job: selectedId.value, query: { ...queryOf(layer.value), ...viewQuery.value } };
+/// To a page as it was left.
+export function routeTo(to: Page): Route {
+  switch (to) {
+    case "workers":
+      return { page: to, job: null, query: {} };
+    case "submit":
+      return { page: to, job: null, query: cloned.value === null ? {} : { from: String(cloned.value) } };
+    case "jobs":
+      return { page: to, job: selectedId.value, query: { ...queryOf(layer.value), ...viewQuery.value } };
+  }
 }
 
 function take(route: Route): void {
@@ -89,7 +94,7 @@ export function startRouting(): void {
   addEventListener("hashchange", follow);
   let timer: ReturnType<typeof setTimeout> | undefined;
   effect(() => {
-    const route = current();
+    const route = routeTo(page.value);
     const hash = hashOf(route);
     clearTimeout(timer);
     if (hash === location.hash) return;

@@ -52,19 +52,6 @@ function Tools({ job }: { job: Job }) {
       <button title="A new job with these settings, to be changed (C in the job list)" onClick={() => openSubmit(job.id)}>
         <Icon name="copy" /> Clone
       </button>
-      {!ended && (
-        <label class="priority" title="0 to 99; + and - in the job list">
-          Priority
-          <input
-            key={`${job.id} ${job.priority}`}
-            type="number"
-            min={0}
-            max={99}
-            defaultValue={String(job.priority)}
-            onChange={(event) => setPriority(job, event.currentTarget.valueAsNumber)}
-          />
-        </label>
-      )}
     </div>
   );
 }
@@ -89,7 +76,9 @@ function Progress({ job }: { job: Job }) {
         {job.eta_seconds !== null && `, ${duration(job.eta_seconds)} left`}
       </Row>
       <Row name="Submitted">{ago(ageOf(job))}</Row>
-      {hasEnded(job) && <Row name="Priority">{job.priority}</Row>}
+      <Row name="Priority">
+        <Priority job={job} />
+      </Row>
       {job.tiles_given_back > 0 && (
         <Row name="Given back">
           <span class="warn">{many(job.tiles_given_back, "tile")}, by workers that left or failed</span>
@@ -100,6 +89,22 @@ function Progress({ job }: { job: Job }) {
         <code title={job.scene_hash}>{job.scene_hash.slice(0, 12)}</code>
       </Row>
     </dl>
+  );
+}
+
+function Priority({ job }: { job: Job }) {
+  if (hasEnded(job)) return <>{job.priority}</>;
+  return (
+    <input
+      key={`${job.id} ${job.priority}`}
+      type="number"
+      aria-label="Priority"
+      title="0 to 99, higher goes first; + and - in the job list"
+      min={0}
+      max={99}
+      defaultValue={String(job.priority)}
+      onChange={(event) => setPriority(job, event.currentTarget.valueAsNumber)}
+    />
   );
 }
 
