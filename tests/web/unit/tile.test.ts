@@ -43,4 +43,12 @@ describe("a tile message", () => {
     expect(() => decodeTile(new ArrayBuffer(31))).toThrow("not a tile");
     expect(() => decodeTile(new ArrayBuffer(64))).toThrow("not a tile");
   });
+
+  it("of another size than it says is refused", () => {
+    expect(() => decodeTile(message(1, 4))).toThrow("another size");
+    expect(() => decodeTile(message(0, 8))).toThrow("another size");
+    const endless = message(1, 8);
+    new DataView(endless).setUint16(24, 0, true);
+    expect(() => decodeTile(endless)).toThrow("another size");
+  });
 });

@@ -6,6 +6,8 @@ import { short } from "../app/format";
 import { theme } from "../app/theme";
 import { rates } from "./throughput";
 
+const shown = 300; // seconds
+
 function chartIn(element: HTMLElement): uPlot {
   const color = (name: string) => {
     // A custom property is text; only where it is used does light-dark() become a colour.
@@ -23,7 +25,7 @@ function chartIn(element: HTMLElement): uPlot {
       legend: { show: false },
       cursor: { show: false },
       padding: [8, 8, 0, 0],
-      scales: { y: { range: (_, __, most) => [0, Math.max(most, 100) * 1.05] } },
+      scales: { x: { range: (_, __, last) => [last - shown, last] }, y: { range: (_, __, most) => [0, Math.max(most, 100) * 1.05] } },
       axes: [
         { ...axis, size: 22, space: 80 },
         { ...axis, size: 58, space: 28, values: (_, values) => values.map(short) },

@@ -38,7 +38,7 @@ export function WorkerTable() {
             <th scope="col" class="number" title="Primary samples a second, as learnt from its deliveries">
               Samples/s
             </th>
-            <th scope="col">Pixels/s, last minute</th>
+            <th scope="col" title="What it delivered in the last minute">Pixels/s</th>
             <th scope="col" class="number">
               Tiles
             </th>
@@ -49,7 +49,7 @@ export function WorkerTable() {
               Here for
             </th>
             <th scope="col">Processor, version</th>
-            <th scope="col">
+            <th scope="col" class="actions">
               <span class="out-of-sight">Actions</span>
             </th>
           </tr>

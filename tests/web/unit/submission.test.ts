@@ -1,0 +1,133 @@
+import { describe, expect, it } from "vitest";
+import type { Job, Parameter } from "../../../master/web/src/app/types";
+import {
+  bodyOf,
+  emptyForm,
+  faultsOf,
+  fileFault,
+  formOf,
+  nothingDeclared,
+  parameterFault,
+  type Declared,
+  type Form,
+} from "../../../master/web/src/jobs/submission";
+
+const parameter = (type: Parameter["type"], more: Partial<Parameter> = {}): Parameter => ({
+  name: "p",
+  type,
+  default: "",
+  help: "",
+  choices: [],
+  min: null,
+  max: null,
+  ...more,
+});
+const ready: Form = { ...emptyForm(), scene: "circus" };
+const withNumbers = (numbers: Partial<Form["numbers"]>, more: Partial<Form> = {}): Form => ({
+  ...ready,
+  ...more,
+  numbers: { ...ready.numbers, ...numbers },
+});
+
+describe("a parameter", () => {
+  it("left empty is the scene's business", () => expect(parameterFault(parameter("int", { min: 1 }), "")).toBeNull());
+  it.each(["1.5", "x", "1e2", "0x10", "Infinity"])("that is a whole number is not %s", (text) =>
+    expect(parameterFault(parameter("int"), text)).toBe(`p must be a whole number, is "${text}".`),
+  );
+  it.each(["-3", "0", "12"])("that is a whole number may be %s", (text) => expect(parameterFault(parameter("int"), text)).toBeNull());
+  it.each(["0.5", "1e-3", "-2"])("that is a number may be %s", (text) => expect(parameterFault(parameter("number"), text)).toBeNull());
+  it("keeps its limits", () => {
+    const limited = parameter("number", { min: 0.1, max: 10 });
+    expect([limited].map((one) => parameterFault(one, "0.05"))).toEqual(["p must be 0.1 or more, is 0.05."]);
+    expect(parameterFault(limited, "11")).toBe("p must be 10 or less, is 11.");
+    expect(parameterFault(limited, "10")).toBeNull();
+  });
+  it("of choices is one of them", () => {
+    const choice = parameter("choice", { choices: ["glass", "mirror"] });
+    expect(parameterFault(choice, "wood")).toBe('p must be glass or mirror, is "wood".');
+    expect(parameterFault(choice, "glass")).toBeNull();
+  });
+});
+
+describe("the form", () => {
+  const faults = (form: Form, declared: Declared = nothingDeclared) => faultsOf(form, declared);
+  it("can be sent as soon as there is a scene", () => {
+    expect(Object.keys(faults(emptyForm()))).toEqual(["source"]);
+    expect(Object.keys(faults({ ...emptyForm(), source: "script" }))).toEqual(["source"]);
+    expect(faults(ready)).toEqual({});
+  });
+  it("keeps the master's limits", () => {
+    expect(faults(withNumbers({ width: "0" })).width).toBe("Width must be 1 or more, is 0.");
+    expect(faults(withNumbers({ width: "60001" })).width).toContain("60\u202f000 or less");
+    expect(faults(withNumbers({ spp: "1.5" })).spp).toContain("a whole number");
+    expect(faults(withNumbers({ min_importance: "2" })).min_importance).toContain("1 or less");
+    expect(faults(withNumbers({ priority: "100" })).priority).toContain("99 or less");
+  });
+  it("counts megapixels, also with the scene's own width", () => {
+    const declared: Declared = { ...nothingDeclared, image: { width: 50_000, height: null, spp: null } };
+    expect(faults(withNumbers({ width: "25000", height: "20000" }))).toEqual({});
+    expect(faults(withNumbers({ height: "10001" }), declared).height).toContain("500 megapixels");
+  });
+  it.each(["jitter", "regular", "adapt1"])("wants a square number of samples for %s", (sampler) => {
+    expect(faults(withNumbers({ spp: "15" }, { sampler })).spp).toContain("9 or 16");
+    expect(faults(withNumbers({ spp: "16" }, { sampler }))).toEqual({});
+    expect(faults(withNumbers({ spp: "" }, { sampler }))).toEqual({});
+    expect(faults(withNumbers({ spp: "15" }, { sampler: "sobol" }))).toEqual({});
+  });
+  it("refuses a pasted script that is too long", () =>
+    expect(faults({ ...ready, source: "script", script: { name: "", text: "x".repeat(1024 * 1024 + 1) } }).source).toContain("1 MB"));
+});
+
+describe("what is sent", () => {
+  it("is no more than what was filled in", () => {
+    expect(bodyOf(ready, nothingDeclared)).toEqual({
+      scene_name: "circus",
+      parameters: {},
+      settings: { shadows: true, reflections: true, refractions: true },
+    });
+  });
+  it("has parameters as texts, those that the scene declares", () => {
+    const declared: Declared = { ...nothingDeclared, parameters: [parameter("int", { name: "depth" }), parameter("int", { name: "n" })] };
+    const body = bodyOf({ ...ready, parameters: { depth: "6", n: "", other: "1" } }, declared);
+    expect(body.parameters).toEqual({ depth: "6" });
+  });
+  it("has a script with its name", () => {
+    const body = bodyOf({ ...ready, source: "script", script: { name: "my.lua", text: "camera{}" } }, nothingDeclared);
+    expect(body).toMatchObject({ script: "camera{}", script_name: "my.lua" });
+    expect(body).not.toHaveProperty("scene_name");
+  });
+  it("has settings as numbers, and priority, name and hold beside them", () => {
+    const body = bodyOf(withNumbers({ width: "320", min_importance: "0.1", priority: "7" }, { name: " x ", hold: true, sampler: "jitter" }), nothingDeclared);
+    expect(body).toMatchObject({ name: "x", priority: 7, hold: true, settings: { width: 320, min_importance: 0.1, sampler: "jitter" } });
+    expect(body.settings).not.toHaveProperty("priority");
+  });
+});
+
+describe("a cloned job", () => {
+  const settings = {
+    width: 320,
+    height: 200,
+    spp: 9,
+    sampler: "jitter",
+    seed: 5,
+    frame: 2,
+    max_depth: 3,
+    min_importance: 0.25,
+    shadows: true,
+    reflections: false,
+    refractions: true,
+  };
+  const job = { id: 7, name: "flake", priority: 60, parameters: { depth: "6" }, settings } as unknown as Job;
+  it("has the same settings and scene until they are changed", () => {
+    const form = formOf(job);
+    expect(faultsOf(form, nothingDeclared)).toEqual({});
+    expect(bodyOf(form, nothingDeclared)).toEqual({ scene_of: 7, name: "flake", priority: 60, settings });
+  });
+});
+
+describe("a file", () => {
+  it("of 200 MB is refused by its size", () =>
+    expect(fileFault({ name: "big.lua", size: 200 * 1024 * 1024 })).toBe("big.lua has 200 MB; a script has 1 MB at most."));
+  it("of 1 MB is taken", () => expect(fileFault({ name: "my.LUA", size: 1024 * 1024 })).toBeNull());
+  it("that is no script is refused", () => expect(fileFault({ name: "cat.png", size: 9 })).toBe("cat.png is no .lua file."));
+});
