@@ -53,7 +53,7 @@ std::vector<std::uint32_t> tiles_with_news(const std::vector<std::uint32_t>& ord
   return tiles;
 }
 
-void widen(std::optional<std::array<double, 2>>& range, const std::vector<float>& values) {
+void widen(std::optional<std::array<double, 2>>& range, std::span<const float> values) {
   for (const float value : values) {
     if (!std::isfinite(value)) continue;
     if (!range) range = {value, value};

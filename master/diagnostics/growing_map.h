@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "master/diagnostics/layer.h"
@@ -36,6 +37,6 @@ std::vector<std::uint32_t> tiles_with_news(const std::vector<std::uint32_t>& ord
                                            const std::vector<PassSet>& done,
                                            const std::vector<PassSet>& known, std::uint32_t most_tiles);
 /// Widens the range by the finite ones of the values.
-void widen(std::optional<std::array<double, 2>>& range, const std::vector<float>& values);
+void widen(std::optional<std::array<double, 2>>& range, std::span<const float> values);
 
 }  // namespace rayfarm

@@ -1,7 +1,6 @@
 #include "master/diagnostics/leaf_names.h"
 
 namespace rayfarm {
-namespace {
 
 const char* kind_of(const Solid& solid) {
   struct Name {
@@ -13,6 +12,8 @@ const char* kind_of(const Solid& solid) {
   };
   return std::visit(Name{}, solid);
 }
+
+namespace {
 
 /// Returns the node after the subtree.
 std::size_t add_names(const Scene& scene, std::size_t number, const std::string& above,
