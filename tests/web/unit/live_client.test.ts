@@ -19,11 +19,14 @@ class FakeSocket implements Socket {
   }
 }
 
+const silence = 15_000; // milliseconds, after which the master is asked whether it is there
+
 let sockets: FakeSocket[];
 let pauses: number[]; // asked for so far
 let timers: { due: number; run: () => void }[];
 let time: number;
 let heard: unknown[][];
+let reachable: boolean;
 
 /// Lets the time pass, running what is due in its order.
 function pass(milliseconds: number) {
@@ -46,8 +49,9 @@ function start(): LiveClient {
         sockets.push(new FakeSocket());
         return last();
       },
+      answers: () => Promise.resolve(reachable),
       after(milliseconds, run) {
-        pauses.push(milliseconds);
+        if (milliseconds < silence) pauses.push(milliseconds);
         const timer = { due: time + milliseconds, run };
         timers.push(timer);
         return () => void (timers = timers.filter((one) => one !== timer));
@@ -71,6 +75,7 @@ beforeEach(() => {
   timers = [];
   time = 0;
   heard = [];
+  reachable = true;
 });
 
 describe("what is watched", () => {
@@ -142,6 +147,46 @@ describe("a lost connection", () => {
     expect(sockets).toHaveLength(2);
     client.retry();
     expect(sockets).toHaveLength(2);
+  });
+});
+
+describe("a long silence", () => {
+  it("is no loss while the master answers", async () => {
+    start();
+    last().onopen!();
+    for (let i = 0; i < 3; ++i) {
+      pass(silence);
+      await Promise.resolve();
+    }
+    expect(names()).toEqual(["opened"]);
+  });
+
+  it("is a loss when it does not, and the old connection is not heard any more", async () => {
+    start();
+    const old = last();
+    old.onopen!();
+    reachable = false;
+    pass(silence);
+    await Promise.resolve();
+    old.tell({ type: "log", lines: [] });
+    expect(names()).toEqual(["opened", "lost"]);
+    pass(250);
+    last().onopen!();
+    expect(sockets).toHaveLength(2);
+    expect(names()).toEqual(["opened", "lost", "opened"]);
+  });
+
+  it("is looked for as long as nothing is heard", async () => {
+    start();
+    last().onopen!();
+    reachable = false;
+    last().tell({ type: "log", lines: [] });
+    pass(silence);
+    await Promise.resolve();
+    expect(names()).toEqual(["opened", "log"]);
+    pass(silence);
+    await Promise.resolve();
+    expect(names()).toEqual(["opened", "log", "lost"]);
   });
 });
 

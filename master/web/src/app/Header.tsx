@@ -5,6 +5,7 @@ import { Icon } from "./Icon";
 import { hashOf, page, routeTo, type Page } from "./route";
 import { jobs, link, raysShown, workers } from "./state";
 import { theme } from "./theme";
+import { rates } from "../workers/throughput";
 import "./header.css";
 
 const pages: { page: Page; title: string }[] = [
@@ -16,12 +17,12 @@ const pages: { page: Page; title: string }[] = [
 const summary = computed(() => {
   const there = workers.value.filter((worker) => worker.state !== "dialling" && worker.state !== "banned");
   const busy = there.filter((worker) => worker.state === "busy");
-  const speed = busy.reduce((sum, worker) => sum + worker.samples_per_second, 0);
+  const delivered = rates.value.farm[rates.value.farm.length - 1] ?? 0;
   const running = jobs.value.filter((job) => job.state === "running").length;
   const waiting = jobs.value.filter((job) => job.state === "waiting").length;
   return [
     there.length === 0 ? "no workers" : `${busy.length} of ${many(there.length, "worker")} busy`,
-    ...(speed > 0 ? [`${short(speed)} samples/s`] : []),
+    ...(delivered > 0 ? [`${short(delivered)} samples/s`] : []),
     ...(running + waiting > 0 ? [`${running} running, ${waiting} waiting`] : []),
   ];
 });

@@ -1,5 +1,5 @@
 import { now } from "./clock";
-import { duration } from "./format";
+import { ago } from "./format";
 import { Icon } from "./Icon";
 import { retry } from "./live";
 import { dismiss, lostSince, notices } from "./state";
@@ -12,9 +12,7 @@ export function LostBanner() {
   return (
     <div class="lost-banner">
       <span role="status">The connection to the master is lost; what you see may be old.</span>
-      <span>
-        Since {duration(Math.max(1, Math.round((now.value - since) / 1000)))}, trying again until it answers.
-      </span>
+      <span>Lost {ago((now.value - since) / 1000)}, trying again until it answers.</span>
       <button onClick={retry}>Try now</button>
     </div>
   );

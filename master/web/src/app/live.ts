@@ -1,6 +1,6 @@
 // The WebSocket that brings news: jobs, workers, log, and the tiles of the layers that are watched.
 import { batch } from "@preact/signals";
-import { getJson } from "./api";
+import { getJson, urlOf } from "./api";
 import { hear } from "./clock";
 import { startLive, type LiveClient, type News, type Socket } from "./live_client";
 import { reconcile } from "./reconcile";
@@ -80,6 +80,11 @@ export function goLive(): void {
         const timer = setTimeout(run, milliseconds);
         return () => clearTimeout(timer);
       },
+      answers: () =>
+        fetch(urlOf("/maps"), { signal: AbortSignal.timeout(5000) }).then(
+          () => true,
+          () => false,
+        ),
     },
     news,
   );

@@ -17,6 +17,8 @@ export interface Surroundings {
   connect(): Socket;
   /// Runs it later; the result takes that back.
   after(milliseconds: number, run: () => void): () => void;
+  /// Whether the master answers another request; asked when it has been silent for long.
+  answers(): Promise<boolean>;
 }
 
 export interface News {
@@ -32,6 +34,7 @@ export interface News {
 
 const shortestPause = 250; // milliseconds, doubled after each failure
 const longestPause = 5000;
+const longSilence = 15_000; // milliseconds; a master that vanished without a word closes nothing
 
 export interface LiveClient {
   /// Asks for exactly these layers from now on, also after the connection was lost and found again.
@@ -46,8 +49,31 @@ export function startLive(around: Surroundings, news: News): LiveClient {
   let isOpen = false;
   let pause = shortestPause;
   let cancelPause: (() => void) | null = null;
+  let heard = false; // since the last look
 
   const send = () => socket?.send(JSON.stringify({ watch: watched }));
+
+  function lose(made: Socket): void {
+    if (made !== socket || cancelPause) return;
+    isOpen = false;
+    cancelPause = around.after(pause, connect);
+    pause = Math.min(2 * pause, longestPause);
+    news.lost();
+  }
+
+  /// Each long silence is looked into, as long as this is the connection.
+  function listenFor(made: Socket): void {
+    heard = false;
+    around.after(longSilence, () => {
+      if (made !== socket || !isOpen) return;
+      if (heard) return listenFor(made);
+      void around.answers().then((alive) => {
+        if (alive) return listenFor(made);
+        lose(made);
+        made.close();
+      });
+    });
+  }
 
   function connect(): void {
     cancelPause = null;
@@ -59,14 +85,12 @@ export function startLive(around: Surroundings, news: News): LiveClient {
       pause = shortestPause;
       news.opened();
       send();
+      listenFor(made);
     };
-    made.onclose = () => {
-      isOpen = false;
-      cancelPause = around.after(pause, connect);
-      pause = Math.min(2 * pause, longestPause);
-      news.lost();
-    };
+    made.onclose = () => lose(made);
     made.onmessage = ({ data }) => {
+      if (made !== socket || cancelPause) return; // given up already
+      heard = true;
       const told = read(data);
       if (!told) news.malformed();
       else if ("tile" in told) news.tile(told.tile);

@@ -2,7 +2,7 @@ import { computed } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { duration, percent } from "../app/format";
 import { openJob } from "../app/route";
-import { jobs, link, selectedId } from "../app/state";
+import { jobs, link, selectedId, selectedJob } from "../app/state";
 import type { Job, JobState } from "../app/types";
 import { filter } from "./filter";
 import { listed, step } from "./job_actions";
@@ -17,9 +17,10 @@ const counts = computed(() => {
 /// The queue in its order, then the history.
 export function JobList() {
   const { queue, history } = listed.value;
+  // The row of a new job comes later than its choice.
   useEffect(() => {
     document.getElementById(`job-${selectedId.value}`)?.scrollIntoView({ block: "nearest" });
-  }, [selectedId.value]);
+  }, [selectedJob.value?.id]);
   return (
     <section class="job-list" aria-label="Job list">
       <FilterBar />

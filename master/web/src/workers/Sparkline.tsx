@@ -1,4 +1,4 @@
-const width = 96;
+const width = 72;
 const height = 20;
 const shown = 60; // values
 

@@ -85,7 +85,7 @@ function WorkerRow({ worker }: { worker: Worker }) {
         <td class="number">{worker.threads || ""}</td>
         <td class="number">{worker.samples_per_second > 0 && short(worker.samples_per_second)}</td>
         <td>
-          <Rate name={worker.name} />
+          {isThere && <Rate name={worker.name} />}
         </td>
         <td class="number">{worker.tiles > 0 && count(worker.tiles)}</td>
         <td class="number">{worker.pixels > 0 && short(worker.pixels)}</td>
@@ -106,7 +106,12 @@ function WorkerRow({ worker }: { worker: Worker }) {
 function Rate({ name }: { name: string }) {
   const values = rates.value.workers.get(name) ?? [];
   const last = values[values.length - 1] ?? 0;
-  return <Sparkline values={values} label={`${short(last)} pixels a second`} />;
+  return (
+    <span class="rate">
+      {short(last)}
+      <Sparkline values={values} label="in the last minute" />
+    </span>
+  );
 }
 
 const Age = ({ worker }: { worker: Worker }) => <>{duration(Math.floor(ageOf(worker)))}</>;
