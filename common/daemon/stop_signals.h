@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM.
+// SIGINT, SIGTERM, and SIGHUP unless it is ignored (nohup).
 #pragma once
 #include <asio/signal_set.hpp>
 #include <functional>

@@ -2,16 +2,28 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "common/render/settings.h"
 #include "master/cli/commands.h"
 #include "master/cli/interrupt.h"
+#include "master/cli/text.h"
 #include "master/files/image_file.h"
+#include "master/script/suggestion.h"
 
 namespace rayfarm {
 namespace {
+
+/// What was printed and could not be written (a full disk) is no success.
+void expect_printed() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw CommandError(ExitCode::failed,
+                       std::string("cannot write to standard output: ") + std::strerror(errno));
+}
 
 /// Every failure ends here, with one line and its exit code.
 ExitCode run(const Command& command) {
@@ -21,7 +33,9 @@ ExitCode run(const Command& command) {
     return told;
   };
   try {
-    return command();
+    const ExitCode code = command();
+    expect_printed();
+    return code;
   } catch (const CommandError& error) {
     return ended(error.code, error.what());
   } catch (const SceneError& error) {
@@ -35,6 +49,23 @@ ExitCode run(const Command& command) {
   } catch (const std::exception& error) {
     return ended(ExitCode::failed, error.what());
   }
+}
+
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
+
+/// CLI11 would say that a command is missing, not that this one is misspelt.
+bool knows(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> names = names_of_commands(app);
+  return std::find(names.begin(), names.end(), word) != names.end();
+}
+int complain(const CLI::App& app, const std::string& word) {
+  std::fprintf(stderr, "rayfarm: there is no command %s%s; rayfarm --help lists them\n",
+               printable(word).c_str(), suggestion(word, names_of_commands(app)).c_str());
+  return static_cast<int>(ExitCode::usage);
 }
 
 int run_command_line(int argc, char** argv) {
@@ -59,6 +90,7 @@ int run_command_line(int argc, char** argv) {
   add_map_command(app, chosen);
   add_trace_command(app, chosen);
   add_compare_command(app, chosen);
+  if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1])) return complain(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -53,6 +53,21 @@ TEST(Program, WhatItDoesNotKnowIsAUsageError) {
     EXPECT_EQ(rayfarm({"submit", "scene.lua", "-o", "a.exr", option, "1"}).exit_code, 2) << option;
 }
 
+TEST(Program, NamesTheCommandThatItDoesNotKnowAndTheNearestOne) {
+  EXPECT_EQ(rayfarm({"rendre"}).err,
+            "rayfarm: there is no command rendre, did you mean 'render'?; rayfarm --help lists them\n");
+}
+
+TEST(Program, SaysThatItsOutputWasLost) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rayfarm";
+  const ProgramResult result =
+      run_program({"/bin/sh", "-c", "exec \"$0\" \"$@\" >/dev/full", program, "trace",
+                   RAYFARM_SOURCE_DIR "/scenes/sphere_plane.lua", "--pixel", "1,1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("cannot write to standard output: No space left on device"), std::string::npos)
+      << result.err;
+}
+
 TEST(Program, SaysWhereItLookedForAMasterAndHowToStartOne) {
   const ScratchFolder folder;
   const std::string scene = RAYFARM_SOURCE_DIR "/scenes/sphere_plane.lua";
