@@ -1,0 +1,88 @@
+// How a job's picture came about: its statistics, its scene, the rays behind a pixel.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "master/diagnostics/diagnostics.h"
+#include "master/diagnostics/scene_view.h"
+#include "master/http/job_subject.h"
+#include "master/http/query.h"
+#include "master/http/settings_json.h"
+
+namespace rayfarm {
+namespace {
+
+using nlohmann::json;
+
+// Statistics. ----------------------------------------------------------------------------------------------
+
+constexpr std::size_t most_solids_listed = 20'000;
+
+/// The solids that were hit, most hits first.
+json json_of_hits(const Statistics& statistics, const std::vector<std::string>& names) {
+  std::vector<std::size_t> leaves;
+  for (std::size_t leaf = 0; leaf < statistics.hits.size(); ++leaf)
+    if (statistics.hits[leaf] > 0) leaves.push_back(leaf);
+  std::ranges::stable_sort(leaves, std::greater{}, [&](std::size_t leaf) { return statistics.hits[leaf]; });
+  leaves.resize(std::min(leaves.size(), most_solids_listed));
+  json hits = json::array();
+  for (const std::size_t leaf : leaves)
+    hits.push_back({{"leaf", leaf}, {"name", names[leaf]}, {"hits", statistics.hits[leaf]}});
+  return hits;
+}
+
+/// What must be traced again to be known.
+json statistics_detail(const Call& call, JobId id) try {
+  const Subject subject = job_subject(call.doors.farm, id).subject;
+  const Made<Statistics> made = call.doors.diagnostics.statistics(subject);
+  if (made.standing.state == LayerProgress::failed)
+    return {{"state", "unavailable"}, {"message", made.standing.message}};
+  if (!made.thing) return {{"state", "making"}, {"progress", made.standing.share_done}};
+  return {{"state", "done"},
+          {"progress", 1},
+          {"counters", to_json(made.thing->rays)},
+          {"hits", json_of_hits(*made.thing, call.doors.diagnostics.scene(subject)->leaf_names())}};
+} catch (const ApiError& error) {
+  return {{"state", "unavailable"}, {"message", error.what()}};
+}
+
+ApiResponse show_statistics(const Call& call) {
+  const JobId id = job_id(call);
+  const auto job = call.doors.farm.ask([id](Farm& farm, FarmTime now) { return farm.job(id, now); });
+  if (!job) throw no_such_job(id);
+  const auto seconds = [](FarmTime time) { return std::chrono::duration<double>(time).count(); };
+  const auto pixels = static_cast<double>(std::max<std::uint64_t>(job->pixels_done, 1));
+  json counters = to_json(job->counters), mean;
+  counters["misses"] = job->counters.misses();
+  for (const auto& [name, total] : counters.items()) mean[name] = total.get<double>() / pixels;
+  json detail = statistics_detail(call, id);
+  const bool is_complete = detail["state"] != "making";
+  ApiResponse response = shown({{"counters", counters},
+                                {"mean_per_pixel", mean},
+                                {"pixels", job->pixels_done},
+                                {"samples_per_pixel", static_cast<double>(job->counters.primary) / pixels},
+                                {"seconds",
+                                 {{"waiting", seconds(job->waited)},
+                                  {"rendering", seconds(job->elapsed)},
+                                  {"threads", seconds(job->thread_time)}}},
+                                {"detail", std::move(detail)}});
+  if (!is_complete) response.status = 202;
+  return response;
+}
+
+// The scene. -----------------------------------------------------------------------------------------------
+
+ApiResponse show_scene(const Call& call) {
+  const Subject subject = job_subject(call.doors.farm, job_id(call)).subject;
+  return shown(scene_view(*call.doors.diagnostics.scene(subject)));
+}
+
+constexpr Route routes[]{
+    {"GET", "/api/v1/jobs/{id}/statistics", show_statistics, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/scene", show_scene, Work::picture},
+};
+
+}  // namespace
+
+std::span<const Route> diagnostics_routes() { return routes; }
+
+}  // namespace rayfarm
