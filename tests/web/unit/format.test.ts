@@ -51,7 +51,16 @@ describe("numbers as people read them", () => {
   });
 
   it("has units for bytes and plurals for things", () => {
-    expect([200, 20_480, 1.5 * 1024 * 1024, 200 * 1024 * 1024].map(bytes)).toEqual(["200 bytes", "20 kB", "1.5 MB", "200 MB"]);
-    expect([many(0, "worker"), many(1, "worker"), many(2000, "worker")]).toEqual(["0 workers", "1 worker", "2\u202f000 workers"]);
+    expect([200, 20_480, 1.5 * 1024 * 1024, 200 * 1024 * 1024].map(bytes)).toEqual([
+      "200 bytes",
+      "20 kB",
+      "1.5 MB",
+      "200 MB",
+    ]);
+    expect([many(0, "worker"), many(1, "worker"), many(2000, "worker")]).toEqual([
+      "0 workers",
+      "1 worker",
+      "2\u202f000 workers",
+    ]);
   });
 });

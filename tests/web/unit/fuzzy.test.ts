@@ -1,7 +1,14 @@
 import { describe, expect, it } from "vitest";
 import { filter, match } from "../../../master/web/src/app/fuzzy";
 
-const entries = ["Show the picture", "Show map: Depth", "Zoom in", "Zoom out", "7 sphere_flake (done)", "Pause or resume the job"];
+const entries = [
+  "Show the picture",
+  "Show map: Depth",
+  "Zoom in",
+  "Zoom out",
+  "7 sphere_flake (done)",
+  "Pause or resume the job",
+];
 const found = (query: string) => filter(query, entries, (entry) => entry).map(({ entry }) => entry);
 
 describe("finding by letters", () => {

@@ -3,7 +3,15 @@ import { keyOf, type Action } from "../../../master/web/src/app/actions";
 import { actionFor, type Place } from "../../../master/web/src/app/keys";
 
 const pressed = (key: string, more: Partial<KeyboardEvent> = {}): KeyboardEvent =>
-  ({ key, code: "", ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...more }) as KeyboardEvent;
+  ({
+    key,
+    code: "",
+    ctrlKey: false,
+    metaKey: false,
+    altKey: false,
+    shiftKey: false,
+    ...more,
+  }) as KeyboardEvent;
 
 describe("a key's name", () => {
   it.each([

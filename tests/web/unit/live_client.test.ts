@@ -42,7 +42,10 @@ const names = () => heard.map(([name]) => name);
 const watch = (job: number): Watch => ({ job, layer: "picture", reduce: "majority", compat: false });
 
 function start(): LiveClient {
-  const hear = (name: keyof News) => (...told: unknown[]) => void heard.push([name, ...told]);
+  const hear =
+    (name: keyof News) =>
+    (...told: unknown[]) =>
+      void heard.push([name, ...told]);
   return startLive(
     {
       connect() {
@@ -222,7 +225,16 @@ describe("messages", () => {
   it("that make no sense are counted and change nothing", () => {
     start();
     last().onopen!();
-    for (const data of ["{", "null", "7", '{"type":"state","jobs":3}', '{"type":"news"}', '{"type":"log"}', '{"tile":1}', new ArrayBuffer(8)])
+    for (const data of [
+      "{",
+      "null",
+      "7",
+      '{"type":"state","jobs":3}',
+      '{"type":"news"}',
+      '{"type":"log"}',
+      '{"tile":1}',
+      new ArrayBuffer(8),
+    ])
       last().onmessage!({ data });
     last().tell({ type: "state", jobs: [], workers: [] });
     expect(names()).toEqual(["opened", ...Array<string>(8).fill("malformed"), "state"]);

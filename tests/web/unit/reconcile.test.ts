@@ -7,7 +7,13 @@ interface Item {
   age_seconds: number;
   settings: { width: number };
 }
-const item = (id: number, more: Partial<Item> = {}): Item => ({ id, name: "a", age_seconds: 1, settings: { width: 4 }, ...more });
+const item = (id: number, more: Partial<Item> = {}): Item => ({
+  id,
+  name: "a",
+  age_seconds: 1,
+  settings: { width: 4 },
+  ...more,
+});
 const merged = (old: Item[], fresh: Item[]) => reconcile(old, fresh, (one) => one.id);
 
 describe("a list that comes anew", () => {

@@ -2,18 +2,31 @@ import { describe, expect, it } from "vitest";
 import { hashOf, isStep, layerIn, parse, queryOf, type Route } from "../../../master/web/src/app/route";
 
 describe("an address", () => {
-  it.each(["#/jobs", "#/jobs/7", "#/jobs/7?layer=depth&reduce=mean&z=2.5", "#/submit", "#/submit?from=7", "#/workers"])(
-    "%s is read and written the same",
-    (hash) => expect(hashOf(parse(hash))).toBe(hash),
-  );
+  it.each([
+    "#/jobs",
+    "#/jobs/7",
+    "#/jobs/7?layer=depth&reduce=mean&z=2.5",
+    "#/submit",
+    "#/submit?from=7",
+    "#/workers",
+  ])("%s is read and written the same", (hash) => expect(hashOf(parse(hash))).toBe(hash));
 
   it("names page, job and view", () => {
     expect(parse("#/jobs/7?layer=depth")).toEqual({ page: "jobs", job: 7, query: { layer: "depth" } });
   });
 
-  it.each(["", "#", "#/", "#/nowhere", "#/jobs/", "#/jobs/x", "#/jobs/-1", "#/jobs/1e3", "#/jobs/9999999999999999999"])(
-    "that makes no sense (%s) is the jobs page",
-    (hash) => expect(parse(hash)).toEqual({ page: "jobs", job: null, query: {} }),
+  it.each([
+    "",
+    "#",
+    "#/",
+    "#/nowhere",
+    "#/jobs/",
+    "#/jobs/x",
+    "#/jobs/-1",
+    "#/jobs/1e3",
+    "#/jobs/9999999999999999999",
+  ])("that makes no sense (%s) is the jobs page", (hash) =>
+    expect(parse(hash)).toEqual({ page: "jobs", job: null, query: {} }),
   );
 });
 
@@ -24,7 +37,8 @@ describe("the layer in an address", () => {
     { layer: "all-rays", reduce: "majority", compat: true } as const,
   ])("%# is read as it was written", (choice) => expect(layerIn(queryOf(choice))).toEqual(choice));
   it("is left out for the picture", () => expect(queryOf(layerIn({}))).toEqual({}));
-  it("has a known reduction whatever is written", () => expect(layerIn({ reduce: "sum" }).reduce).toBe("majority"));
+  it("has a known reduction whatever is written", () =>
+    expect(layerIn({ reduce: "sum" }).reduce).toBe("majority"));
 });
 
 describe("the back button", () => {

@@ -30,12 +30,17 @@ const withNumbers = (numbers: Partial<Form["numbers"]>, more: Partial<Form> = {}
 });
 
 describe("a parameter", () => {
-  it("left empty is the scene's business", () => expect(parameterFault(parameter("int", { min: 1 }), "")).toBeNull());
+  it("left empty is the scene's business", () =>
+    expect(parameterFault(parameter("int", { min: 1 }), "")).toBeNull());
   it.each(["1.5", "x", "1e2", "0x10", "Infinity"])("that is a whole number is not %s", (text) =>
     expect(parameterFault(parameter("int"), text)).toBe(`p must be a whole number, is "${text}".`),
   );
-  it.each(["-3", "0", "12"])("that is a whole number may be %s", (text) => expect(parameterFault(parameter("int"), text)).toBeNull());
-  it.each(["0.5", "1e-3", "-2"])("that is a number may be %s", (text) => expect(parameterFault(parameter("number"), text)).toBeNull());
+  it.each(["-3", "0", "12"])("that is a whole number may be %s", (text) =>
+    expect(parameterFault(parameter("int"), text)).toBeNull(),
+  );
+  it.each(["0.5", "1e-3", "-2"])("that is a number may be %s", (text) =>
+    expect(parameterFault(parameter("number"), text)).toBeNull(),
+  );
   it("keeps its limits", () => {
     const limited = parameter("number", { min: 0.1, max: 10 });
     expect([limited].map((one) => parameterFault(one, "0.05"))).toEqual(["p must be 0.1 or more, is 0.05."]);
@@ -75,7 +80,9 @@ describe("the form", () => {
     expect(faults(withNumbers({ spp: "15" }, { sampler: "sobol" }))).toEqual({});
   });
   it("refuses a pasted script that is too long", () =>
-    expect(faults({ ...ready, source: "script", script: { name: "", text: "x".repeat(1024 * 1024 + 1) } }).source).toContain("1 MB"));
+    expect(
+      faults({ ...ready, source: "script", script: { name: "", text: "x".repeat(1024 * 1024 + 1) } }).source,
+    ).toContain("1 MB"));
 });
 
 describe("what is sent", () => {
@@ -87,18 +94,35 @@ describe("what is sent", () => {
     });
   });
   it("has parameters as texts, those that the scene declares", () => {
-    const declared: Declared = { ...nothingDeclared, parameters: [parameter("int", { name: "depth" }), parameter("int", { name: "n" })] };
+    const declared: Declared = {
+      ...nothingDeclared,
+      parameters: [parameter("int", { name: "depth" }), parameter("int", { name: "n" })],
+    };
     const body = bodyOf({ ...ready, parameters: { depth: "6", n: "", other: "1" } }, declared);
     expect(body.parameters).toEqual({ depth: "6" });
   });
   it("has a script with its name", () => {
-    const body = bodyOf({ ...ready, source: "script", script: { name: "my.lua", text: "camera{}" } }, nothingDeclared);
+    const body = bodyOf(
+      { ...ready, source: "script", script: { name: "my.lua", text: "camera{}" } },
+      nothingDeclared,
+    );
     expect(body).toMatchObject({ script: "camera{}", script_name: "my.lua" });
     expect(body).not.toHaveProperty("scene_name");
   });
   it("has settings as numbers, and priority, name and hold beside them", () => {
-    const body = bodyOf(withNumbers({ width: "320", min_importance: "0.1", priority: "7" }, { name: " x ", hold: true, sampler: "jitter" }), nothingDeclared);
-    expect(body).toMatchObject({ name: "x", priority: 7, hold: true, settings: { width: 320, min_importance: 0.1, sampler: "jitter" } });
+    const body = bodyOf(
+      withNumbers(
+        { width: "320", min_importance: "0.1", priority: "7" },
+        { name: " x ", hold: true, sampler: "jitter" },
+      ),
+      nothingDeclared,
+    );
+    expect(body).toMatchObject({
+      name: "x",
+      priority: 7,
+      hold: true,
+      settings: { width: 320, min_importance: 0.1, sampler: "jitter" },
+    });
     expect(body.settings).not.toHaveProperty("priority");
   });
 });
@@ -127,7 +151,10 @@ describe("a cloned job", () => {
 
 describe("a file", () => {
   it("of 200 MB is refused by its size", () =>
-    expect(fileFault({ name: "big.lua", size: 200 * 1024 * 1024 })).toBe("big.lua has 200 MB; a script has 1 MB at most."));
+    expect(fileFault({ name: "big.lua", size: 200 * 1024 * 1024 })).toBe(
+      "big.lua has 200 MB; a script has 1 MB at most.",
+    ));
   it("of 1 MB is taken", () => expect(fileFault({ name: "my.LUA", size: 1024 * 1024 })).toBeNull());
-  it("that is no script is refused", () => expect(fileFault({ name: "cat.png", size: 9 })).toBe("cat.png is no .lua file."));
+  it("that is no script is refused", () =>
+    expect(fileFault({ name: "cat.png", size: 9 })).toBe("cat.png is no .lua file."));
 });

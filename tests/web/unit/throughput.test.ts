@@ -10,7 +10,8 @@ const tally = (time: number, samples: Record<number, number>, pixels: Record<str
   );
 
 describe("the throughput", () => {
-  it("is what all jobs grew by in a second", () => expect(farmRate(tally(10, { 1: 100, 2: 50 }), tally(12, { 1: 300, 2: 90 }))).toBe(120));
+  it("is what all jobs grew by in a second", () =>
+    expect(farmRate(tally(10, { 1: 100, 2: 50 }), tally(12, { 1: 300, 2: 90 }))).toBe(120));
   it("counts a job from when it was first seen, and none that is gone", () =>
     expect(farmRate(tally(0, { 1: 100 }), tally(1, { 2: 5000 }))).toBe(0));
   it("is not negative when the master began anew", () => {

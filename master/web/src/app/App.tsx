@@ -15,7 +15,9 @@ import { Splitter } from "./Splitter";
 import { raysShown } from "./state";
 import "./layout.css";
 
-const RaysArea: ComponentType = lazy("the rays", () => import("../rays/RaysArea").then((part) => part.RaysArea));
+const RaysArea: ComponentType = lazy("the rays", () =>
+  import("../rays/RaysArea").then((part) => part.RaysArea),
+);
 
 export function App() {
   const withColumn = columnShown.value && panelsShown.value;
@@ -29,7 +31,15 @@ export function App() {
             <aside style={{ width: columnWidth.value }} aria-label="Jobs">
               <JobColumn />
             </aside>
-            <Splitter label="Width of the job column" size={columnWidth} split="columns" unit="pixels" least={240} most={720} initial={340} />
+            <Splitter
+              label="Width of the job column"
+              size={columnWidth}
+              split="columns"
+              unit="pixels"
+              least={240}
+              most={720}
+              initial={340}
+            />
           </>
         )}
         <main>

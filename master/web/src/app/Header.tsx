@@ -45,7 +45,12 @@ export function Header() {
         ))}
       </nav>
       <p class="summary" title="The farm now">
-        <span class={`dot ${link.value}`} role="img" aria-label={words[link.value]} title={words[link.value]} />
+        <span
+          class={`dot ${link.value}`}
+          role="img"
+          aria-label={words[link.value]}
+          title={words[link.value]}
+        />
         {summary.value.map((part) => (
           <span key={part}>{part}</span>
         ))}
@@ -62,12 +67,28 @@ export function Header() {
 }
 
 /// A button for an action that is also on a key.
-function Tool({ id, icon, text, pressed }: { id: string; icon?: Parameters<typeof Icon>[0]["name"]; text?: string; pressed?: boolean }) {
+function Tool({
+  id,
+  icon,
+  text,
+  pressed,
+}: {
+  id: string;
+  icon?: Parameters<typeof Icon>[0]["name"];
+  text?: string;
+  pressed?: boolean;
+}) {
   const action = actions.value.find((one) => one.id === id);
   if (!action) return null;
   const key = action.keys[0];
   return (
-    <button class="plain" aria-label={action.title} aria-pressed={pressed} title={key ? `${action.title} (${key})` : action.title} onClick={action.run}>
+    <button
+      class="plain"
+      aria-label={action.title}
+      aria-pressed={pressed}
+      title={key ? `${action.title} (${key})` : action.title}
+      onClick={action.run}
+    >
       {icon ? <Icon name={icon} /> : text}
     </button>
   );

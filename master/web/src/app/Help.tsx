@@ -58,7 +58,16 @@ function KeyGroup({ group, listed }: { group: Group; listed: Action[] }) {
   );
 }
 
-const signs: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", Escape: "Esc", PageUp: "PgUp", PageDown: "PgDn", Delete: "Del" };
+const signs: Record<string, string> = {
+  ArrowLeft: "←",
+  ArrowRight: "→",
+  ArrowUp: "↑",
+  ArrowDown: "↓",
+  Escape: "Esc",
+  PageUp: "PgUp",
+  PageDown: "PgDn",
+  Delete: "Del",
+};
 
 /// "Shift+ArrowLeft" as keys to press together.
 export function Keys({ keys }: { keys: string }) {

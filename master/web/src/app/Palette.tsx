@@ -32,7 +32,13 @@ function layerEntry(name: string, title: string): Entry {
 const entries = computed<Entry[]>(() => [
   ...actions.value
     .filter((action) => action.id !== "palette" && (action.enabled?.() ?? true))
-    .map((action) => ({ id: action.id, kind: action.group, title: action.title, key: action.keys[0], run: action.run })),
+    .map((action) => ({
+      id: action.id,
+      kind: action.group,
+      title: action.title,
+      key: action.keys[0],
+      run: action.run,
+    })),
   layerEntry("picture", "the picture"),
   ...maps.value.map((map) => layerEntry(map.name, `map: ${map.title}`)),
   ...[...jobs.value].reverse().map((job) => ({
@@ -60,7 +66,10 @@ function OpenPalette() {
   const list = useRef<HTMLUListElement>(null);
   const close = () => (paletteShown.value = false);
   const chosen = Math.min(place.value, found.value.length - 1);
-  useEffect(() => list.current?.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" }), [chosen, query.value]);
+  useEffect(
+    () => list.current?.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" }),
+    [chosen, query.value],
+  );
 
   function run(entry: Entry | undefined) {
     if (!entry) return;
@@ -98,7 +107,13 @@ function OpenPalette() {
       />
       <ul id="palette-list" role="listbox" aria-label="Found" ref={list}>
         {found.value.map(({ entry, match }, index) => (
-          <li key={entry.id} id={`palette-${index}`} role="option" aria-selected={index === chosen} onClick={() => run(entry)}>
+          <li
+            key={entry.id}
+            id={`palette-${index}`}
+            role="option"
+            aria-selected={index === chosen}
+            onClick={() => run(entry)}
+          >
             <span class="quiet">{entry.kind}</span>
             <span>{marked(entry.title, match.places)}</span>
             {entry.key && <Keys keys={entry.key} />}

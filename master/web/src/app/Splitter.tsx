@@ -28,10 +28,13 @@ export function Splitter({ label, size, split, unit, least, most, initial }: Pro
     const from = columns ? event.clientX : event.clientY;
     const before = size.value;
     const scale = perPixel(bar);
-    const move = (moved: PointerEvent) => set(before + ((columns ? moved.clientX : moved.clientY) - from) * scale);
+    const move = (moved: PointerEvent) =>
+      set(before + ((columns ? moved.clientX : moved.clientY) - from) * scale);
     bar.setPointerCapture(event.pointerId);
     bar.addEventListener("pointermove", move);
-    bar.addEventListener("lostpointercapture", () => bar.removeEventListener("pointermove", move), { once: true });
+    bar.addEventListener("lostpointercapture", () => bar.removeEventListener("pointermove", move), {
+      once: true,
+    });
   }
 
   function key(event: KeyboardEvent) {

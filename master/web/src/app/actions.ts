@@ -29,7 +29,13 @@ export function keyOf(event: KeyboardEvent): string {
   const letter = /^[a-z]$/i.test(event.key);
   const named = event.key.length > 1;
   const digit = /^Digit\d$/.test(event.code);
-  const key = letter ? event.key.toUpperCase() : digit ? event.code.slice(5) : event.key === " " ? "Space" : event.key;
+  const key = letter
+    ? event.key.toUpperCase()
+    : digit
+      ? event.code.slice(5)
+      : event.key === " "
+        ? "Space"
+        : event.key;
   const shift = event.shiftKey && (letter || named || digit);
   return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${shift ? "Shift+" : ""}${key}`;
 }

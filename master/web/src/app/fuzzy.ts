@@ -38,7 +38,11 @@ function from(start: number, wanted: string, lower: string): Match | null {
 }
 
 /// The entries that match, best first; those that match equally stay in their order.
-export function filter<T>(query: string, entries: readonly T[], text: (entry: T) => string): { entry: T; match: Match }[] {
+export function filter<T>(
+  query: string,
+  entries: readonly T[],
+  text: (entry: T) => string,
+): { entry: T; match: Match }[] {
   const found: { entry: T; match: Match }[] = [];
   for (const entry of entries) {
     const matched = match(query, text(entry));

@@ -9,8 +9,20 @@ import { toggleTheme } from "./theme";
 
 export const registerGeneral = (): (() => void) =>
   register([
-    { id: "palette", title: "Find an action, a layer or a job", group: "General", keys: ["Ctrl+K"], run: openPalette },
-    { id: "help", title: "Show all keys", group: "General", keys: ["?"], run: () => (helpShown.value = true) },
+    {
+      id: "palette",
+      title: "Find an action, a layer or a job",
+      group: "General",
+      keys: ["Ctrl+K"],
+      run: openPalette,
+    },
+    {
+      id: "help",
+      title: "Show all keys",
+      group: "General",
+      keys: ["?"],
+      run: () => (helpShown.value = true),
+    },
     {
       id: "panels",
       title: "Hide or show the panels",
@@ -47,7 +59,20 @@ export const registerGeneral = (): (() => void) =>
       run: () => (raysPlace.value = raysBeside() ? "below" : "beside"),
     },
     { id: "theme", title: "Light or dark", group: "General", keys: ["Shift+T"], run: toggleTheme },
-    { id: "page-jobs", title: "Go to the picture", group: "General", keys: ["Escape"], enabled: () => page.value !== "jobs", run: () => (page.value = "jobs") },
-    { id: "page-workers", title: "Go to the workers", group: "General", keys: ["Shift+W"], run: () => (page.value = "workers") },
+    {
+      id: "page-jobs",
+      title: "Go to the picture",
+      group: "General",
+      keys: ["Escape"],
+      enabled: () => page.value !== "jobs",
+      run: () => (page.value = "jobs"),
+    },
+    {
+      id: "page-workers",
+      title: "Go to the workers",
+      group: "General",
+      keys: ["Shift+W"],
+      run: () => (page.value = "workers"),
+    },
     { id: "page-submit", title: "New job", group: "Jobs", keys: ["Shift+N"], run: () => openSubmit() },
   ]);

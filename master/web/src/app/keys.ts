@@ -19,7 +19,10 @@ export function actionFor(key: string, place: Place, all: readonly Action[]): Ac
   if (place.takesPress && (plain === "Enter" || plain === "Space")) return undefined;
   if (plain === "Tab" && (!place.freeTab || key !== "Tab")) return undefined;
   const fitting = all.filter((action) => action.keys.includes(key) && (action.enabled?.() ?? true));
-  return fitting.find((action) => action.scope && action.scope === place.scope) ?? fitting.find((action) => !action.scope);
+  return (
+    fitting.find((action) => action.scope && action.scope === place.scope) ??
+    fitting.find((action) => !action.scope)
+  );
 }
 
 let pointerWasLast = false;
@@ -27,7 +30,8 @@ let pointerWasLast = false;
 function placeOf(focus: Element | null): Place {
   const scope = focus?.closest<HTMLElement>("[data-scope]")?.dataset.scope ?? null;
   const input = focus instanceof HTMLInputElement ? focus.type : null;
-  const control = focus?.matches("input, select, textarea, button, a, [role=separator], [role=option]") ?? false;
+  const control =
+    focus?.matches("input, select, textarea, button, a, [role=separator], [role=option]") ?? false;
   return {
     scope,
     takesText:

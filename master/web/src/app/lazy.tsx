@@ -21,7 +21,8 @@ export function lazy(name: string, load: () => Promise<ComponentType>): Componen
     if (!failed) return <p class="loading quiet">Loading {name} …</p>;
     return (
       <p class="loading" role="alert">
-        The part of the app for {name} could not be loaded. <button onClick={() => setFailed(false)}>Try again</button>
+        The part of the app for {name} could not be loaded.{" "}
+        <button onClick={() => setFailed(false)}>Try again</button>
       </p>
     );
   };

@@ -129,7 +129,8 @@ function read(data: unknown): Told | null {
     if (data instanceof ArrayBuffer) return { tile: decodeTile(data) };
     const message = JSON.parse(String(data)) as Told;
     if ("tile" in message) return null;
-    if (message.type === "state") return Array.isArray(message.jobs) && Array.isArray(message.workers) ? message : null;
+    if (message.type === "state")
+      return Array.isArray(message.jobs) && Array.isArray(message.workers) ? message : null;
     if (message.type === "log") return Array.isArray(message.lines) ? message : null;
     return message.type === "layer" && typeof message.id === "number" ? message : null;
   } catch {

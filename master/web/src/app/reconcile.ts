@@ -13,7 +13,11 @@ export function same(a: unknown, b: unknown): boolean {
 }
 
 /// The new list with the old objects wherever nothing but the age differs.
-export function reconcile<T extends object>(old: readonly T[], fresh: readonly T[], key: (item: T) => unknown): T[] {
+export function reconcile<T extends object>(
+  old: readonly T[],
+  fresh: readonly T[],
+  key: (item: T) => unknown,
+): T[] {
   const known = new Map(old.map((item) => [key(item), item]));
   return fresh.map((item) => {
     const before = known.get(key(item));

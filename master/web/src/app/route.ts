@@ -80,11 +80,16 @@ export function routeTo(to: Page): Route {
 
 function take(route: Route): void {
   page.value = route.page;
-  if (route.page === "submit") cloned.value = /^\d+$/.test(route.query.from ?? "") ? Number(route.query.from) : null;
+  if (route.page === "submit")
+    cloned.value = /^\d+$/.test(route.query.from ?? "") ? Number(route.query.from) : null;
   if (route.page !== "jobs") return;
   const { layer: name, reduce, compat, ...others } = route.query;
   selectedId.value = route.job ?? selectedId.value;
-  layer.value = layerIn({ ...(name && { layer: name }), ...(reduce && { reduce }), ...(compat && { compat }) });
+  layer.value = layerIn({
+    ...(name && { layer: name }),
+    ...(reduce && { reduce }),
+    ...(compat && { compat }),
+  });
   viewQuery.value = others;
 }
 

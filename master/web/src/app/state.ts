@@ -22,7 +22,9 @@ export const lostSince = signal<number | null>(null);
 export const malformed = signal(0);
 
 export const selectedId = signal<number | null>(null);
-export const selectedJob = computed<Job | null>(() => jobs.value.find((job) => job.id === selectedId.value) ?? null);
+export const selectedJob = computed<Job | null>(
+  () => jobs.value.find((job) => job.id === selectedId.value) ?? null,
+);
 export const layer = signal<LayerChoice>({ layer: "picture", reduce: "majority", compat: false });
 
 /// The pixel that was clicked, whose rays are shown.

@@ -23,5 +23,6 @@ export function stored<T>(name: string, initial: T, fits: (value: unknown) => bo
 }
 
 export const isShare = (value: unknown): boolean => typeof value === "number" && value > 0 && value < 1;
-export const isPixels = (value: unknown): boolean => typeof value === "number" && value >= 0 && value < 10_000;
+export const isPixels = (value: unknown): boolean =>
+  typeof value === "number" && value >= 0 && value < 10_000;
 export const isBoolean = (value: unknown): boolean => typeof value === "boolean";

@@ -16,7 +16,8 @@ export function decodeTile(buffer: ArrayBuffer): TileMessage {
   };
   const half = view.getUint8(27) === 0;
   const count = Math.ceil(tile.width / tile.stride) * Math.ceil(tile.height / tile.stride) * tile.channels;
-  if (buffer.byteLength - 32 !== count * (half ? 2 : 4)) throw new Error("a tile of another size than it says");
+  if (buffer.byteLength - 32 !== count * (half ? 2 : 4))
+    throw new Error("a tile of another size than it says");
   return { ...tile, values: half ? fromHalves(new Uint16Array(buffer, 32)) : new Float32Array(buffer, 32) };
 }
 

@@ -5,7 +5,11 @@ interface Props {
   label: string;
   hint?: string;
   fault?: string | undefined;
-  children: (attributes: { id: string; "aria-describedby"?: string; "aria-invalid"?: "true" }) => ComponentChildren;
+  children: (attributes: {
+    id: string;
+    "aria-describedby"?: string;
+    "aria-invalid"?: "true";
+  }) => ComponentChildren;
 }
 
 /// A label, its control, and below it what is wrong, or else a hint.
@@ -15,7 +19,11 @@ export function Field({ label, hint, fault, children }: Props): JSX.Element {
   return (
     <div class="field">
       <label for={id}>{label}</label>
-      {children({ id, ...(words && { "aria-describedby": `${id}-words` }), ...(fault && { "aria-invalid": "true" as const }) })}
+      {children({
+        id,
+        ...(words && { "aria-describedby": `${id}-words` }),
+        ...(fault && { "aria-invalid": "true" as const }),
+      })}
       {words && (
         <span id={`${id}-words`} class={fault ? "words bad" : "words quiet"}>
           {words}

@@ -14,7 +14,15 @@ export function JobColumn() {
       </div>
       {withDetails && (
         <>
-          <Splitter label="Height of the job list" size={listShare} split="rows" unit="share" least={0.15} most={0.85} initial={0.5} />
+          <Splitter
+            label="Height of the job list"
+            size={listShare}
+            split="rows"
+            unit="share"
+            least={0.15}
+            most={0.85}
+            initial={0.5}
+          />
           <div class="part" style={{ flexGrow: 1 - listShare.value }}>
             <JobDetails />
           </div>

@@ -49,7 +49,10 @@ function Tools({ job }: { job: Job }) {
           </button>
         </>
       )}
-      <button title="A new job with these settings, to be changed (C in the job list)" onClick={() => openSubmit(job.id)}>
+      <button
+        title="A new job with these settings, to be changed (C in the job list)"
+        onClick={() => openSubmit(job.id)}
+      >
         <Icon name="copy" /> Clone
       </button>
     </div>

@@ -41,7 +41,14 @@ export function JobList() {
 }
 
 function moveByKey(event: KeyboardEvent) {
-  const moves: Record<string, number> = { ArrowUp: -1, ArrowDown: 1, PageUp: -10, PageDown: 10, Home: -1e9, End: 1e9 };
+  const moves: Record<string, number> = {
+    ArrowUp: -1,
+    ArrowDown: 1,
+    PageUp: -10,
+    PageDown: 10,
+    Home: -1e9,
+    End: 1e9,
+  };
   const steps = moves[event.key];
   if (steps === undefined || event.ctrlKey || event.altKey) return;
   event.preventDefault();
@@ -61,7 +68,9 @@ function FilterBar() {
       <select
         aria-label="Filter jobs by state"
         value={filter.value.state}
-        onChange={(event) => (filter.value = { ...filter.value, state: event.currentTarget.value as JobState | "all" })}
+        onChange={(event) =>
+          (filter.value = { ...filter.value, state: event.currentTarget.value as JobState | "all" })
+        }
       >
         <option value="all">all {jobs.value.length}</option>
         {states.map((state) => (
@@ -91,7 +100,13 @@ function Rows({ title, jobs: rows }: { title: string; jobs: Job[] }) {
 function JobRow({ job, chosen }: { job: Job; chosen: boolean }) {
   return useMemo(
     () => (
-      <div id={`job-${job.id}`} role="option" aria-selected={chosen} class={`job ${job.state}`} onClick={() => openJob(job.id)}>
+      <div
+        id={`job-${job.id}`}
+        role="option"
+        aria-selected={chosen}
+        class={`job ${job.state}`}
+        onClick={() => openJob(job.id)}
+      >
         <span class={`state-dot ${job.state}`} title={job.state} />
         <span class="name">{job.name}</span>
         <span class="quiet">#{job.id}</span>

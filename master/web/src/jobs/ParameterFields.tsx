@@ -40,7 +40,11 @@ function ParameterField({ parameter }: { parameter: Parameter }) {
             onChange={(event) => set(String(event.currentTarget.checked))}
           />
         ) : type === "choice" ? (
-          <select {...attributes} value={value || parameter.default} onChange={(event) => set(event.currentTarget.value)}>
+          <select
+            {...attributes}
+            value={value || parameter.default}
+            onChange={(event) => set(event.currentTarget.value)}
+          >
             {parameter.choices.map((choice) => (
               <option key={choice}>{choice}</option>
             ))}

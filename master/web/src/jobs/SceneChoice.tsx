@@ -18,7 +18,12 @@ export function SceneChoice() {
       <div class="choice" role="radiogroup" aria-label="Where the scene comes from">
         {sources.map(([value, title]) => (
           <label key={value} class={value === source ? "chosen" : undefined}>
-            <input type="radio" name="source" checked={value === source} onChange={() => change({ source: value })} />
+            <input
+              type="radio"
+              name="source"
+              checked={value === source}
+              onChange={() => change({ source: value })}
+            />
             {title}
           </label>
         ))}
@@ -38,7 +43,8 @@ function SceneList() {
         {scenesFault.value} <button onClick={() => void loadScenes()}>Try again</button>
       </p>
     );
-  if (scenes.value?.length === 0) return <p class="quiet">The master has no scenes installed; bring a script.</p>;
+  if (scenes.value?.length === 0)
+    return <p class="quiet">The master has no scenes installed; bring a script.</p>;
   return (
     <div class="scenes" role="radiogroup" aria-label="Scenes">
       {scenes.value?.map((entry) => (
@@ -132,8 +138,9 @@ function SceneOfJob() {
   return (
     <p class="quiet">
       The very scene of {job ? `${job.name} (job ${job.id})` : `job ${form.value.job}`}
-      {parameters.length > 0 && `, with ${parameters.map(([name, value]) => `${name} = ${value}`).join(", ")}`}. To change its
-      parameters, choose the scene or its script.
+      {parameters.length > 0 &&
+        `, with ${parameters.map(([name, value]) => `${name} = ${value}`).join(", ")}`}
+      . To change its parameters, choose the scene or its script.
     </p>
   );
 }

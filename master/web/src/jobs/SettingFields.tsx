@@ -16,7 +16,11 @@ export function SettingFields() {
         <NumberField name="spp" />
         <Field label="Sampler">
           {(attributes) => (
-            <select {...attributes} value={form.value.sampler} onChange={(event) => change({ sampler: event.currentTarget.value })}>
+            <select
+              {...attributes}
+              value={form.value.sampler}
+              onChange={(event) => change({ sampler: event.currentTarget.value })}
+            >
               {samplers.map((sampler) => (
                 <option key={sampler}>{sampler}</option>
               ))}
@@ -26,7 +30,10 @@ export function SettingFields() {
         <NumberField name="max_depth" hint="of reflected and refracted rays" />
         <NumberField name="min_importance" hint="rays of less are not traced" />
         <NumberField name="seed" />
-        <NumberField name="frame" hint={animation ? `0 to ${frames}, ${many(animation.fps, "frame")} a second` : ""} />
+        <NumberField
+          name="frame"
+          hint={animation ? `0 to ${frames}, ${many(animation.fps, "frame")} a second` : ""}
+        />
       </div>
       <div class="switches" role="group" aria-label="Rays that are traced">
         <Switch name="shadows" />
@@ -39,7 +46,9 @@ export function SettingFields() {
           {(attributes) => (
             <input
               {...attributes}
-              placeholder={form.value.source === "farm" ? form.value.scene : form.value.script.name.replace(/\.lua$/, "")}
+              placeholder={
+                form.value.source === "farm" ? form.value.scene : form.value.script.name.replace(/\.lua$/, "")
+              }
               value={form.value.name}
               onInput={(event) => change({ name: event.currentTarget.value })}
             />
@@ -49,7 +58,11 @@ export function SettingFields() {
       </div>
       <div class="switches">
         <label>
-          <input type="checkbox" checked={form.value.hold} onChange={(event) => change({ hold: event.currentTarget.checked })} />
+          <input
+            type="checkbox"
+            checked={form.value.hold}
+            onChange={(event) => change({ hold: event.currentTarget.checked })}
+          />
           Hold: begin paused
         </label>
       </div>

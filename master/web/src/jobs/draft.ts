@@ -4,7 +4,16 @@ import { ApiError, getJson, postJson } from "../app/api";
 import { openJob } from "../app/route";
 import { tell } from "../app/state";
 import type { Job, SceneEntry } from "../app/types";
-import { bodyOf, emptyForm, faultsOf, fileFault, formOf, nothingDeclared, type Declared, type Form } from "./submission";
+import {
+  bodyOf,
+  emptyForm,
+  faultsOf,
+  fileFault,
+  formOf,
+  nothingDeclared,
+  type Declared,
+  type Form,
+} from "./submission";
 
 export const form = signal<Form>(emptyForm());
 /// The master's scenes, once it told them; or why it did not.
@@ -19,7 +28,8 @@ export const refusal = signal("");
 export const sending = signal(false);
 
 export const declared = computed<Declared>(() => {
-  if (form.value.source === "farm") return scenes.value?.find((one) => one.name === form.value.scene) ?? nothingDeclared;
+  if (form.value.source === "farm")
+    return scenes.value?.find((one) => one.name === form.value.scene) ?? nothingDeclared;
   const script = checked.value;
   return form.value.source === "script" && script && "declared" in script ? script.declared : nothingDeclared;
 });
@@ -59,7 +69,10 @@ const typingPause = 500; // milliseconds
 async function check(script: Form["script"]): Promise<void> {
   let result: Checked;
   try {
-    const answer = await postJson<Declared>("/scripts", { name: script.name || "pasted.lua", script: script.text });
+    const answer = await postJson<Declared>("/scripts", {
+      name: script.name || "pasted.lua",
+      script: script.text,
+    });
     result = { text: script.text, declared: { ...nothingDeclared, ...answer } };
   } catch (error) {
     result = { text: script.text, fault: wordsOf(error) };

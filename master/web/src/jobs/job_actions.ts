@@ -66,7 +66,15 @@ const jobActions: Action[] = [
     enabled: isActive,
     run: onJob(pauseOrResume),
   },
-  { id: "job-cancel", title: "Cancel the job", group: "Jobs", keys: ["Delete"], scope: "jobs", enabled: isActive, run: onJob(cancel) },
+  {
+    id: "job-cancel",
+    title: "Cancel the job",
+    group: "Jobs",
+    keys: ["Delete"],
+    scope: "jobs",
+    enabled: isActive,
+    run: onJob(cancel),
+  },
   {
     id: "job-clone",
     title: "New job from this one, with changed settings",

@@ -40,7 +40,10 @@ export function whyWaiting(job: Job, jobs: readonly Job[], workers: readonly Wor
   if (there.length === 0) return "No worker is connected.";
   if (there.every((worker) => worker.state === "drained")) return "All workers are drained; undrain one.";
   const queue = queueOf(jobs).filter((other) => other.state !== "paused");
-  const ahead = queue.slice(0, queue.findIndex((other) => other.id === job.id));
+  const ahead = queue.slice(
+    0,
+    queue.findIndex((other) => other.id === job.id),
+  );
   if (ahead.length === 0) return "It is next: it starts when a worker is free.";
   const first = ahead[0]!;
   return `${many(ahead.length, "job")} ${ahead.length === 1 ? "goes" : "go"} first: #${first.id} ${first.name} (priority ${first.priority})${ahead.length > 1 ? ", ..." : ""}`;

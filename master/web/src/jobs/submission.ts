@@ -3,7 +3,8 @@ import { bytes, count } from "../app/format";
 import type { ImageDefaults, Job, Parameter } from "../app/types";
 
 export type Source = "farm" | "script" | "job";
-export type NumberName = "width" | "height" | "spp" | "seed" | "frame" | "max_depth" | "min_importance" | "priority";
+export type NumberName =
+  "width" | "height" | "spp" | "seed" | "frame" | "max_depth" | "min_importance" | "priority";
 export type SwitchName = "shadows" | "reflections" | "refractions";
 
 export interface Form {
@@ -61,7 +62,16 @@ export const emptyForm = (): Form => ({
   script: { name: "", text: "" },
   job: null,
   parameters: {},
-  numbers: { width: "", height: "", spp: "", seed: "", frame: "", max_depth: "", min_importance: "", priority: "" },
+  numbers: {
+    width: "",
+    height: "",
+    spp: "",
+    seed: "",
+    frame: "",
+    max_depth: "",
+    min_importance: "",
+    priority: "",
+  },
   sampler: "sobol",
   switches: { shadows: true, reflections: true, refractions: true },
   name: "",
@@ -92,12 +102,19 @@ export function defaultOf(name: NumberName, image: ImageDefaults): number {
   return (name in image ? image[name as keyof ImageDefaults] : null) ?? rules[name].initial;
 }
 
-function numberFault(text: string, label: string, whole: boolean, least: number | null, most: number | null): string | null {
+function numberFault(
+  text: string,
+  label: string,
+  whole: boolean,
+  least: number | null,
+  most: number | null,
+): string | null {
   const value = Number(text);
   if (!Number.isFinite(value) || (whole && !/^[+-]?\d+$/.test(text.trim())))
     return `${label} must be ${whole ? "a whole number" : "a number"}, is "${text}".`;
   if (least !== null && value < least) return `${label} must be ${least} or more, is ${text}.`;
-  if (most !== null && value > most) return `${label} must be ${whole ? count(most) : most} or less, is ${text}.`;
+  if (most !== null && value > most)
+    return `${label} must be ${whole ? count(most) : most} or less, is ${text}.`;
   return null;
 }
 
@@ -105,7 +122,8 @@ export function parameterFault(parameter: Parameter, text: string): string | nul
   if (text === "") return null;
   const { name, type, min, max, choices } = parameter;
   if (type === "int" || type === "number") return numberFault(text, name, type === "int", min, max);
-  if (type === "choice" && !choices.includes(text)) return `${name} must be ${choices.join(" or ")}, is "${text}".`;
+  if (type === "choice" && !choices.includes(text))
+    return `${name} must be ${choices.join(" or ")}, is "${text}".`;
   return null;
 }
 
@@ -115,7 +133,8 @@ export type Faults = Partial<Record<string, string>>; // by field; a parameter p
 export function faultsOf(form: Form, declared: Declared): Faults {
   const faults: Faults = {};
   if (form.source === "farm" && form.scene === "") faults.source = "Choose a scene.";
-  if (form.source === "script" && form.script.text.trim() === "") faults.source = "Choose a .lua file, or paste a script.";
+  if (form.source === "script" && form.script.text.trim() === "")
+    faults.source = "Choose a .lua file, or paste a script.";
   if (form.source === "script" && new Blob([form.script.text]).size > largestScript)
     faults.source = "The script is longer than 1 MB.";
   if (form.source !== "job")
@@ -129,7 +148,8 @@ export function faultsOf(form: Form, declared: Declared): Faults {
     const fault = text.trim() === "" ? null : numberFault(text, label, whole, least, most);
     if (fault) faults[name] = fault;
   }
-  const value = (name: NumberName) => (form.numbers[name].trim() === "" ? defaultOf(name, declared.image) : Number(form.numbers[name]));
+  const value = (name: NumberName) =>
+    form.numbers[name].trim() === "" ? defaultOf(name, declared.image) : Number(form.numbers[name]);
   if (!faults.width && !faults.height && value("width") * value("height") > mostMegapixels * 1e6)
     faults.height = `A picture has ${mostMegapixels} megapixels at most; this one would have ${count((value("width") * value("height")) / 1e6)}.`;
   const root = Math.floor(Math.sqrt(value("spp")));
@@ -146,7 +166,9 @@ export function bodyOf(form: Form, declared: Declared): Record<string, unknown> 
   for (const name of numberNames)
     if (name !== "priority" && form.numbers[name].trim() !== "") settings[name] = Number(form.numbers[name]);
   const parameters = Object.fromEntries(
-    declared.parameters.map(({ name }) => [name, form.parameters[name] ?? ""] as const).filter(([, value]) => value !== ""),
+    declared.parameters
+      .map(({ name }) => [name, form.parameters[name] ?? ""] as const)
+      .filter(([, value]) => value !== ""),
   );
   const scenes: Record<Source, Record<string, unknown>> = {
     farm: { scene_name: form.scene, parameters },

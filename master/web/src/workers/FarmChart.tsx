@@ -17,7 +17,12 @@ function chartIn(element: HTMLElement): uPlot {
     probe.remove();
     return value;
   };
-  const axis = { stroke: color("--quiet"), font: "11px system-ui", ticks: { show: false }, grid: { stroke: color("--line"), width: 1 } };
+  const axis = {
+    stroke: color("--quiet"),
+    font: "11px system-ui",
+    ticks: { show: false },
+    grid: { stroke: color("--line"), width: 1 },
+  };
   const chart = new uPlot(
     {
       width: element.clientWidth,
@@ -25,12 +30,18 @@ function chartIn(element: HTMLElement): uPlot {
       legend: { show: false },
       cursor: { show: false },
       padding: [8, 8, 0, 0],
-      scales: { x: { range: (_, __, last) => [last - shown, last] }, y: { range: (_, __, most) => [0, Math.max(most, 100) * 1.05] } },
+      scales: {
+        x: { range: (_, __, last) => [last - shown, last] },
+        y: { range: (_, __, most) => [0, Math.max(most, 100) * 1.05] },
+      },
       axes: [
         { ...axis, size: 22, space: 80 },
         { ...axis, size: 58, space: 28, values: (_, values) => values.map(short) },
       ],
-      series: [{}, { stroke: color("--accent"), fill: color("--chosen"), width: 1.5, points: { show: false } }],
+      series: [
+        {},
+        { stroke: color("--accent"), fill: color("--chosen"), width: 1.5, points: { show: false } },
+      ],
     },
     [[], []],
     element,
@@ -55,5 +66,12 @@ export function FarmChart() {
       chart.destroy();
     };
   }, [shade]);
-  return <div class="farm-chart" ref={element} role="img" aria-label="Samples a second of the farm in the last five minutes" />;
+  return (
+    <div
+      class="farm-chart"
+      ref={element}
+      role="img"
+      aria-label="Samples a second of the farm in the last five minutes"
+    />
+  );
 }

@@ -9,10 +9,14 @@ const warnings = signal(false);
 const follows = signal(true);
 
 const lines = computed(() =>
-  log.value.filter((line) => (worker.value === "" || line.worker === worker.value) && (!warnings.value || line.warning)),
+  log.value.filter(
+    (line) => (worker.value === "" || line.worker === worker.value) && (!warnings.value || line.warning),
+  ),
 );
 const names = computed(() => {
-  const all = new Set([...workers.value, ...log.value.map((line) => ({ name: line.worker }))].map((one) => one.name));
+  const all = new Set(
+    [...workers.value, ...log.value.map((line) => ({ name: line.worker }))].map((one) => one.name),
+  );
   all.delete("");
   return [...all].sort((a, b) => a.localeCompare(b, undefined, { numeric: true }));
 });
@@ -28,14 +32,22 @@ export function Log() {
     <section class="log" aria-label="Log">
       <header>
         <h2>Log</h2>
-        <select aria-label="Lines of which worker" value={worker.value} onChange={(event) => (worker.value = event.currentTarget.value)}>
+        <select
+          aria-label="Lines of which worker"
+          value={worker.value}
+          onChange={(event) => (worker.value = event.currentTarget.value)}
+        >
           <option value="">all workers</option>
           {names.value.map((name) => (
             <option key={name}>{name}</option>
           ))}
         </select>
         <label>
-          <input type="checkbox" checked={warnings.value} onChange={(event) => (warnings.value = event.currentTarget.checked)} />
+          <input
+            type="checkbox"
+            checked={warnings.value}
+            onChange={(event) => (warnings.value = event.currentTarget.checked)}
+          />
           warnings only
         </label>
         <button class="plain" hidden={follows.value} onClick={toEnd}>
@@ -48,7 +60,9 @@ export function Log() {
         aria-live="off"
         aria-label="Lines"
         tabIndex={0}
-        onScroll={({ currentTarget: at }) => (follows.value = at.scrollHeight - at.scrollTop - at.clientHeight < 8)}
+        onScroll={({ currentTarget: at }) =>
+          (follows.value = at.scrollHeight - at.scrollTop - at.clientHeight < 8)
+        }
       >
         {lines.value.map((line) => (
           <Line key={line.number} line={line} />

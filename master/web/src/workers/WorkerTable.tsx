@@ -24,7 +24,9 @@ function askToBan(worker: Worker): void {
 }
 
 export function WorkerTable() {
-  const sorted = [...workers.value].sort((a, b) => a.name.localeCompare(b.name, undefined, { numeric: true }));
+  const sorted = [...workers.value].sort((a, b) =>
+    a.name.localeCompare(b.name, undefined, { numeric: true }),
+  );
   return (
     <div class="worker-table" tabIndex={0} role="region" aria-label="Workers">
       <table>
@@ -38,7 +40,9 @@ export function WorkerTable() {
             <th scope="col" class="number" title="Primary samples a second, as learnt from its deliveries">
               Samples/s
             </th>
-            <th scope="col" title="What it delivered in the last minute">Pixels/s</th>
+            <th scope="col" class="number" title="What it delivered in the last minute">
+              Pixels/s
+            </th>
             <th scope="col" class="number">
               Tiles
             </th>
@@ -62,7 +66,8 @@ export function WorkerTable() {
       </table>
       {sorted.length === 0 && link.value === "open" && (
         <p class="quiet">
-          No workers. Start one with <code>rayfarm-worker --master {location.hostname}</code>, or let the master dial one that listens.
+          No workers. Start one with <code>rayfarm-worker --master {location.hostname}</code>, or let the
+          master dial one that listens.
         </p>
       )}
     </div>
@@ -84,9 +89,7 @@ function WorkerRow({ worker }: { worker: Worker }) {
         </td>
         <td class="number">{worker.threads || ""}</td>
         <td class="number">{worker.samples_per_second > 0 && short(worker.samples_per_second)}</td>
-        <td>
-          {isThere && <Rate name={worker.name} />}
-        </td>
+        <td>{isThere && <Rate name={worker.name} />}</td>
         <td class="number">{worker.tiles > 0 && count(worker.tiles)}</td>
         <td class="number">{worker.pixels > 0 && short(worker.pixels)}</td>
         <td class="number">{isThere && <Age worker={worker} />}</td>

@@ -21,7 +21,15 @@ export function WorkersPage() {
         <div class="part" style={{ flexGrow: tableShare.value }}>
           <WorkerTable />
         </div>
-        <Splitter label="Height of the worker table" size={tableShare} split="rows" unit="share" least={0.15} most={0.85} initial={0.6} />
+        <Splitter
+          label="Height of the worker table"
+          size={tableShare}
+          split="rows"
+          unit="share"
+          least={0.15}
+          most={0.85}
+          initial={0.6}
+        />
         <div class="part" style={{ flexGrow: 1 - tableShare.value }}>
           <Log />
         </div>

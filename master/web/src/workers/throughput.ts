@@ -60,7 +60,10 @@ function sample(): void {
     times: newest(old.times, tally.time),
     farm: newest(old.farm, reached ? farmRate(before, tally) : null),
     workers: new Map(
-      workers.value.map(({ name }) => [name, newest(old.workers.get(name) ?? [], reached ? workerRate(before, tally, name) : 0)]),
+      workers.value.map(({ name }) => [
+        name,
+        newest(old.workers.get(name) ?? [], reached ? workerRate(before, tally, name) : 0),
+      ]),
     ),
   };
 }
