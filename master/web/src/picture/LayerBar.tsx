@@ -1,0 +1,131 @@
+import { layer, maps } from "../app/state";
+import type { Reduction } from "../app/types";
+import { currentEntry } from "./compare";
+import { shownMap } from "./display";
+import { results, step } from "./history";
+import { chooseLayer } from "./picture_actions";
+import { save } from "./save";
+import { zoomText } from "./view";
+import { currentView, fit, zoomBy, zoomTo } from "./view_state";
+import { zoomStep } from "./gestures";
+
+const reductions: Reduction[] = ["majority", "mean", "closest", "median"];
+
+function Tab({ name, title, help }: { name: string; title: string; help: string }) {
+  const chosen = layer.value.layer === name;
+  const move = (event: KeyboardEvent): void => {
+    const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+    if (by === 0) return;
+    event.preventDefault();
+    const tabs = [...(event.currentTarget as HTMLElement).parentElement!.querySelectorAll("button")];
+    const next = tabs[(tabs.indexOf(event.currentTarget as HTMLButtonElement) + by + tabs.length) % tabs.length]!;
+    next.click();
+    next.focus();
+  };
+  return (
+    <button
+      class="plain"
+      role="tab"
+      aria-selected={chosen}
+      aria-controls="picture-canvas"
+      tabIndex={chosen ? 0 : -1}
+      title={help}
+      data-layer={name}
+      onClick={() => chooseLayer(name)}
+      onKeyDown={move}
+    >
+      {title}
+    </button>
+  );
+}
+
+/// How a map is made of many samples, and by whose formula.
+function MapChoices() {
+  const map = shownMap.value;
+  if (!map) return null;
+  return (
+    <>
+      {map.reduces && (
+        <label title="Which value a pixel gets whose samples met several surfaces">
+          <select
+            aria-label="Reduction"
+            value={layer.value.reduce}
+            onChange={(event) => (layer.value = { ...layer.peek(), reduce: event.currentTarget.value as Reduction })}
+          >
+            {reductions.map((each) => (
+              <option key={each} value={each}>{each}</option>
+            ))}
+          </select>
+        </label>
+      )}
+      {map.compat && (
+        <label class="check" title="The original renderer's formula">
+          <input
+            type="checkbox"
+            checked={layer.value.compat}
+            onChange={(event) => (layer.value = { ...layer.peek(), compat: event.currentTarget.checked })}
+          />
+          original
+        </label>
+      )}
+    </>
+  );
+}
+
+function HistorySteps() {
+  const at = results.value.findIndex((job) => job.id === currentEntry.value?.watch.job);
+  return (
+    <span class="group" role="group" aria-label="History">
+      <button class="plain" aria-label="Previous result" title="Previous result of the scene (A)" disabled={at < 0 || at + 1 >= results.value.length} onClick={() => step(1)}>
+        «
+      </button>
+      <span class="history-place" title="Place in the history, newest first">{at < 0 ? "–" : `${at + 1}/${results.value.length}`}</span>
+      <button class="plain" aria-label="Next result" title="Next result of the scene (D)" disabled={at <= 0} onClick={() => step(-1)}>
+        »
+      </button>
+    </span>
+  );
+}
+
+function ZoomTools() {
+  return (
+    <span class="group" role="group" aria-label="Zoom">
+      <button class="plain" aria-label="Zoom out" title="Zoom out (-)" onClick={() => zoomBy(1 / zoomStep)}>−</button>
+      <button class="plain zoom-level" title="Zoom to 100 % (0)" onClick={() => zoomTo(1)}>{zoomText(currentView.value.zoom)}</button>
+      <button class="plain" aria-label="Zoom in" title="Zoom in (+)" onClick={() => zoomBy(zoomStep)}>+</button>
+      <button class="plain" title="Fit the picture into the window (F)" onClick={fit}>fit</button>
+    </span>
+  );
+}
+
+function SaveTools() {
+  const map = shownMap.value;
+  const what = map ? map.title : "Picture";
+  return (
+    <span class="group" role="group" aria-label="Save">
+      <span class="quiet">save</span>
+      <button class="plain" title={`${what} in its colours as PNG`} onClick={() => save("png")}>PNG</button>
+      <button class="plain" title={`${what}: the numbers as EXR`} onClick={() => save("exr")}>EXR</button>
+      {map && <button class="plain" title={`${what}: the numbers as a table, one line an image row`} onClick={() => save("csv")}>CSV</button>}
+    </span>
+  );
+}
+
+export function LayerBar() {
+  return (
+    <div class="layer-bar">
+      <div role="tablist" aria-label="Layers">
+        <Tab name="picture" title="Picture" help="The picture itself" />
+        {maps.value.map((map) => (
+          <Tab key={map.name} name={map.name} title={map.title} help={map.help} />
+        ))}
+      </div>
+      <div class="layer-tools">
+        <MapChoices />
+        <HistorySteps />
+        <ZoomTools />
+        <SaveTools />
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,137 @@
+import { useEffect, useRef } from "preact/hooks";
+import { count } from "../app/format";
+import { theme } from "../app/theme";
+import type { MapEntry } from "../app/types";
+import { shownEntry } from "./compare";
+import { shownMap } from "./display";
+import { plain, timeText } from "./format";
+import { saveSelection } from "./save";
+import { Section } from "./Section";
+import { areaIn, selection } from "./selection";
+import { figuresOf, histogramOf, type Figures, type Histogram } from "./statistics";
+import { useSteady } from "./steady";
+
+interface Summary {
+  pixels: number;
+  figures: Figures[]; // a channel
+  histograms: Histogram[];
+}
+
+const bins = 128;
+
+function summary(): Summary | null {
+  const data = shownEntry.value?.data;
+  const area = data && areaIn(data, selection.value);
+  if (!data || !area) return null;
+  const channels = Array.from({ length: data.channels }, (_, c) => c);
+  const figures = channels.map((c) => figuresOf(data, c, area));
+  const low = Math.min(...figures.map((each) => each.min));
+  const high = Math.max(...figures.map((each) => each.max));
+  return {
+    pixels: area.width * area.height,
+    figures,
+    histograms: low <= high ? channels.map((c) => histogramOf(data, c, area, low, high, bins)) : [],
+  };
+}
+
+/// Heights are roots of counts: seldom values are seen beside frequent ones.
+function drawHistograms(canvas: HTMLCanvasElement, histograms: Histogram[]): void {
+  const context = canvas.getContext("2d")!;
+  const { width, height } = canvas;
+  context.clearRect(0, 0, width, height);
+  const most = Math.max(1, ...histograms.flatMap((each) => each.counts));
+  const dark = theme.value === "dark";
+  context.globalCompositeOperation = dark ? "lighter" : "multiply";
+  const colors = dark ? ["#c0392b", "#1e8449", "#2a5db0"] : ["#ff9a8f", "#8fdc9f", "#8fb8ff"];
+  histograms.forEach((histogram, c) => {
+    context.fillStyle = histograms.length === 1 ? (dark ? "#8c97a5" : "#7c8794") : colors[c]!;
+    histogram.counts.forEach((counted, i) => {
+      const tall = counted > 0 ? Math.max(1, Math.sqrt(counted / most) * height) : 0;
+      context.fillRect((i * width) / bins, height - tall, width / bins, tall);
+    });
+  });
+}
+
+function HistogramView({ histograms, text }: { histograms: Histogram[]; text: (value: number) => string }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const isDark = theme.value === "dark";
+  useEffect(() => drawHistograms(canvas.current!, histograms), [histograms, isDark]);
+  const { low, high } = histograms[0]!;
+  return (
+    <figure class="histogram">
+      <canvas ref={canvas} width={512} height={112} role="img" aria-label={`Histogram from ${text(low)} to ${text(high)}`} />
+      <figcaption>
+        <span>{text(low)}</span>
+        <span>{text(high)}</span>
+      </figcaption>
+    </figure>
+  );
+}
+
+function namesOf(map: MapEntry | null, channels: number): string[] {
+  if (channels === 1) return [""];
+  return map ? ["x", "y", "z"] : ["R", "G", "B"];
+}
+
+type Row = [title: string, of: (figures: Figures) => string];
+
+function rowsFor(map: MapEntry | null, text: (value: number) => string): Row[] {
+  const means: Row[] = [["mean", (f) => text(f.mean)]];
+  const sums: Row[] = map?.scale === "count" ? [["sum", (f) => text(f.sum)]] : [];
+  return [["min", (f) => text(f.min)], ["max", (f) => text(f.max)], ...means, ...sums];
+}
+
+function Oddities({ figures, isMap }: { figures: Figures[]; isMap: boolean }) {
+  const most = (of: (f: Figures) => number): number => Math.max(0, ...figures.map(of));
+  const parts = [
+    [most((f) => f.nans), "NaN"],
+    [most((f) => f.infinite), isMap ? "show nothing" : "infinite"],
+    [most((f) => f.absent), "not there yet"],
+  ] as const;
+  const told = parts.filter(([pixels]) => pixels > 0).map(([pixels, words]) => `${count(pixels)} ${words}`);
+  return told.length > 0 ? <p class={most((f) => f.nans) > 0 ? "bad" : "quiet"}>Pixels: {told.join(", ")}</p> : null;
+}
+
+/// Figures of what is shown: of the selection, or of all.
+export function ValuesPanel() {
+  const map = shownMap.value;
+  const data = useSteady(
+    () => [shownEntry.value?.revision.value, selection.value, shownMap.value],
+    summary,
+  );
+  const area = selection.value;
+  const text = (value: number): string => (map?.unit === "seconds" && value >= 0 ? timeText(value) : plain(value, 4));
+  if (map?.scale === "label") return null;
+  const names = namesOf(map, data?.figures.length ?? 1);
+  return (
+    <Section title="Values" aside={area ? `${area.width} × ${area.height} at ${area.x}, ${area.y}` : "whole picture"}>
+      {data && data.histograms.length > 0 && <HistogramView histograms={data.histograms} text={text} />}
+      {data && (
+        <table class="figures">
+          {names.length > 1 && (
+            <thead>
+              <tr><th />{names.map((name) => <th key={name} scope="col">{name}</th>)}</tr>
+            </thead>
+          )}
+          <tbody>
+            {rowsFor(map, text).map(([title, of]) => (
+              <tr key={title} data-figure={title}>
+                <th scope="row">{title}</th>
+                {data.figures.map((figures, c) => <td key={c}>{of(figures)}</td>)}
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      )}
+      {data && <Oddities figures={data.figures} isMap={map !== null} />}
+      {area ? (
+        <div class="buttons">
+          <button title="Shift+A" onClick={() => (selection.value = null)}>Whole picture</button>
+          <button title="The selected values as a table" onClick={saveSelection}>Save CSV</button>
+        </div>
+      ) : (
+        <p class="quiet help">Shift+drag selects a rectangle.</p>
+      )}
+    </Section>
+  );
+}

@@ -1,0 +1,69 @@
+// Files of what is shown, made by the master from its own numbers.
+import { getMade } from "../app/api";
+import { layer, selectedJob, tell, tellError } from "../app/state";
+import type { Job, LayerChoice, MapEntry } from "../app/types";
+import { currentEntry } from "./compare";
+import { csvOf } from "./csv";
+import { shownMap, shownOf } from "./display";
+import { rangeOf } from "./figures";
+import type { Range, Shown } from "./range";
+import { areaIn, selection } from "./selection";
+
+export type Format = "png" | "exr" | "csv";
+
+export function mapPath(job: number, choice: LayerChoice, map: MapEntry, format: Format, shown: Shown, range: Range): string {
+  const query = new URLSearchParams({ format });
+  if (map.reduces) query.set("reduce", choice.reduce);
+  if (map.compat && choice.compat) query.set("compat", "1");
+  if (format === "png" && (map.scale === "depth" || map.scale === "count")) {
+    query.set("low", String(range.low));
+    query.set("high", String(range.high));
+    query.set("scale", shown.palette === 0 ? "original" : "perceptual");
+  }
+  return `/jobs/${job}/maps/${map.name}?${query.toString()}`;
+}
+
+const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
+
+function download(blob: Blob, name: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+async function fetchAndSave(path: string, name: string): Promise<void> {
+  let told = false;
+  const response = await getMade(path, () => {
+    if (!told) tell(`${name} is being made`);
+    told = true;
+  });
+  download(await response.blob(), name);
+}
+
+export function save(format: Format): void {
+  const job = selectedJob.peek();
+  const map = shownMap.peek();
+  const entry = currentEntry.peek();
+  if (!job || !entry) return;
+  if (!map) {
+    fetchAndSave(`/jobs/${job.id}/picture.${format}`, `${baseName(job)}.${format}`).catch(tellError);
+    return;
+  }
+  const shown = shownOf(map);
+  const path = mapPath(job.id, layer.peek(), map, format, shown, rangeOf(entry, map, shown));
+  fetchAndSave(path, `${baseName(job)}-${map.name}.${format}`).catch(tellError);
+}
+
+/// The selected values as they are here.
+export function saveSelection(): void {
+  const job = selectedJob.peek();
+  const data = currentEntry.peek()?.data;
+  const area = data && areaIn(data, selection.peek());
+  if (!job || !data || !area) return;
+  const name = layer.peek().layer;
+  const place = `x ${area.x * data.step} to ${(area.x + area.width - 1) * data.step}, y ${area.y * data.step} to ${(area.y + area.height - 1) * data.step}`;
+  const title = `${name} of job ${job.id}, ${job.name}: ${place}${data.step > 1 ? `, every ${data.step}th pixel` : ""}`;
+  download(new Blob([csvOf(data, area, title)], { type: "text/csv" }), `${baseName(job)}-${name}-selection.csv`);
+}

@@ -1,0 +1,107 @@
+// The layers that are looked at or were lately: their numbers, fed by the master's news, and which are asked for.
+import { effect, signal, type Signal } from "@preact/signals";
+import { listen, watch, watches } from "../app/live";
+import { link } from "../app/state";
+import type { LayerMessage, TileMessage, Watch } from "../app/types";
+import { LayerData } from "./layer_data";
+
+export interface Entry {
+  readonly watch: Watch;
+  /// How it stands, as last told.
+  readonly message: Signal<LayerMessage | null>;
+  data: LayerData | null;
+  /// Grows with every change of the data.
+  readonly revision: Signal<number>;
+  used: number; // when it was last wanted, in steps
+}
+
+export const mostWatched = 8; // the master's limit
+const mostBytes = 512 * 1024 * 1024;
+
+const entries = new Map<string, Entry>();
+const byId = new Map<number, Entry>(); // of this connection
+let wanted: Entry[] = [];
+let step = 0;
+
+const keyOf = (w: Watch): string => `${w.job} ${w.layer} ${w.reduce} ${w.compat}`;
+
+export function entryOf(w: Watch): Entry {
+  const key = keyOf(w);
+  let entry = entries.get(key);
+  if (!entry) {
+    entry = { watch: w, message: signal(null), data: null, revision: signal(0), used: ++step };
+    entries.set(key, entry);
+  }
+  return entry;
+}
+
+const finished = (entry: Entry): boolean =>
+  entry.message.peek()?.state === "done" && entry.data !== null && entry.data.complete;
+
+/// From now on these are kept up to date, the first the most important; finished ones are only kept.
+export function want(list: Watch[]): void {
+  wanted = [...new Set(list.map(entryOf))].slice(0, mostWatched);
+  for (const entry of wanted) entry.used = ++step;
+  const asked = wanted.filter((entry) => !finished(entry)).map((entry) => entry.watch);
+  const now = watches();
+  if (asked.length !== now.length || asked.some((w, i) => keyOf(w) !== keyOf(now[i]!))) watch(asked);
+  forget();
+}
+
+/// The least recently wanted go when there are too many bytes.
+function forget(): void {
+  let bytes = [...entries.values()].reduce((sum, entry) => sum + (entry.data?.bytes ?? 0), 0);
+  const oldest = [...entries].filter(([, entry]) => !wanted.includes(entry)).sort(([, a], [, b]) => a.used - b.used);
+  for (const [key, entry] of oldest) {
+    if (bytes <= mostBytes) return;
+    bytes -= entry.data?.bytes ?? 0;
+    entries.delete(key);
+  }
+}
+
+/// The list of watches may have changed since the master numbered it.
+function entryFor(message: LayerMessage): Entry | undefined {
+  const list = watches();
+  const fits = (w: Watch | undefined): w is Watch => w?.job === message.job && w.layer === message.layer;
+  const named = list[message.watch];
+  const found = fits(named) ? named : list.find(fits);
+  return found && entryOf(found);
+}
+
+/// The layer begins, perhaps again: what is known of it is shown until it is replaced.
+function begin(message: LayerMessage): Entry | undefined {
+  const entry = entryFor(message);
+  if (!entry) return undefined;
+  for (const [id, other] of byId) if (other === entry) byId.delete(id);
+  byId.set(message.id, entry);
+  const { width, height, channels, step: apart } = message;
+  const data = entry.data;
+  const same = data?.width === width && data.height === height && data.channels === channels && data.step === apart;
+  if (same) data.outdate();
+  else entry.data = new LayerData(width, height, channels, apart);
+  forget();
+  return entry;
+}
+
+function takeLayer(message: LayerMessage): void {
+  const entry = byId.get(message.id) ?? begin(message);
+  if (!entry) return;
+  entry.message.value = message;
+  entry.revision.value += 1;
+}
+
+function takeTile(tile: TileMessage): void {
+  const entry = byId.get(tile.id);
+  if (entry?.data?.put(tile)) entry.revision.value += 1;
+}
+
+export function startStore(): () => void {
+  const stopListening = listen({ layer: takeLayer, tile: takeTile });
+  const stopEffect = effect(() => {
+    if (link.value !== "open") byId.clear(); // a new connection numbers anew
+  });
+  return () => {
+    stopListening();
+    stopEffect();
+  };
+}
