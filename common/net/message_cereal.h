@@ -41,7 +41,7 @@ void serialize(Archive& archive, SceneData& m) {
 template <class Archive>
 void serialize(Archive& archive, RenderSettings& s) {
   archive(s.width, s.height, s.spp);
-  enumeration(archive, s.sampler, SamplerKind::random);
+  enumeration(archive, s.sampler, last_sampler);
   archive(s.seed, s.frame, s.max_depth, s.min_importance);
   boolean(archive, s.shadows);
   boolean(archive, s.reflections);

@@ -19,6 +19,9 @@ struct Hit {
 
 Hit hit_at(const World::Parts& world, const RayQuery& ray, const Boundary& boundary);
 
+/// A hash of the cells of all textures in which the hit lies.
+std::uint64_t texture_cells(const World::Parts& world, const Ray& ray, const Hit& hit);
+
 /// A ray that leaves the hit on the outer (or inner) side of the material.
 Ray ray_from(const Hit& hit, const Vec3d& direction, bool outside);
 

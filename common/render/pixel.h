@@ -5,18 +5,65 @@
 #include <limits>
 #include <optional>
 
+#include "common/render/adapt1.h"
 #include "common/render/sampler.h"
+#include "common/render/signature.h"
 #include "common/render/trace.h"
 
 namespace rayfarm {
 
-/// The light of one sample, a pure function of (world, settings, pixel, sample).
+/// A sample of a pixel that has been traced: a pure function of (world, settings, pixel, number).
+struct TakenSample {
+  std::uint32_t number = 0;  // among the pixel's, in the order in which they were traced
+  Sample2D at;               // on the pixel
+  Vec3d color{};
+  std::uint32_t weight = 1;  // all of a pixel's add up to pixel_weight()
+};
+
+/// Whether what the first samples of a pixel show decides where it takes more: then they are known only when
+/// all are traced. Any other sampler takes spp samples, PixelSampler::sample(0 .. spp - 1, 0), of weight 1.
+constexpr bool is_adaptive(SamplerKind kind) { return kind == SamplerKind::adapt1; }
+
+inline std::uint32_t pixel_weight(const RenderSettings& s) {
+  return is_adaptive(s.sampler) ? adapt1::smallest_cells(s.spp) : s.spp;
+}
+
+/// Where a sample aims on each light.
+inline auto lights_of(const PixelSampler& sampler, std::uint32_t index) {
+  return [&sampler, index](std::uint32_t light) { return sampler.sample(index, 1 + light); };
+}
+
+/// Traces one sample of a sampler that is not adaptive.
 template <class Observer>
-Vec3d sample_radiance(Tracer<Observer>& tracer, const PixelSampler& sampler, Pixel pixel,
-                      std::uint32_t sample) {
-  const Sample2D place = sampler.sample(sample, 0);
-  return tracer.radiance(pixel.x + place.u, pixel.y + place.v,
-                         [&](std::uint32_t light) { return sampler.sample(sample, 1 + light); });
+TakenSample taken_sample(Tracer<Observer>& tracer, const PixelSampler& sampler, Pixel pixel,
+                         std::uint32_t number) {
+  const Sample2D at = sampler.sample(number, 0);
+  return {number, at, tracer.radiance(pixel.x + at.u, pixel.y + at.v, lights_of(sampler, number))};
+}
+
+/// Traces the samples of a pixel: the very ones of the picture, for whoever renders, counts or watches.
+/// visit(TakenSample) hears of each, by number; of an adaptive sampler's only when all are traced. False when
+/// stop(), asked every few hundred rays, has said true: what was visited is of no use then.
+template <class Observer, class Stop, class Visit>
+bool visit_samples(Tracer<Observer>& tracer, const RenderSettings& settings, Pixel pixel, const Stop& stop,
+                   Visit&& visit) {
+  tracer.stop = std::ref(stop);
+  const PixelSampler sampler(settings, pixel);
+  if (is_adaptive(settings.sampler)) {
+    const adapt1::Quadtree tree(sampler, settings.spp, [&](std::uint32_t cell, const Sample2D& at) {
+      Signature signature(tracer.world());
+      const Vec3d color =
+          tracer.radiance(pixel.x + at.u, pixel.y + at.v, lights_of(sampler, cell), signature);
+      return adapt1::Seen{color, signature.value()};
+    });
+    std::uint32_t number = 0;
+    for (const adapt1::Sample& s : tree.samples()) visit(TakenSample{number++, s.at, s.seen.color, s.weight});
+  } else {
+    for (std::uint32_t s = 0; s < settings.spp && !tracer.is_stopped(); ++s)
+      visit(taken_sample(tracer, sampler, pixel, s));
+  }
+  tracer.stop = nullptr;
+  return !tracer.is_stopped();
 }
 
 /// The samples of a pixel, added in their order.
@@ -24,29 +71,27 @@ struct PixelSum {
   Vec3d sum{};
   std::uint64_t bad_samples = 0;  // NaN or infinite, also as the film's float; they add nothing
 
-  void add(const Vec3d& c) {
+  void add(const Vec3d& c, std::uint32_t weight) {
     if (max_abs(c) <= std::numeric_limits<float>::max() && c.x == c.x && c.y == c.y && c.z == c.z)
-      sum += c;
+      sum += c * static_cast<double>(weight);
     else
       ++bad_samples;
   }
-  std::array<float, 3> mean(std::uint32_t samples) const {
-    return {static_cast<float>(sum.x / samples), static_cast<float>(sum.y / samples),
-            static_cast<float>(sum.z / samples)};
+  std::array<float, 3> mean(std::uint32_t weight) const {
+    return {static_cast<float>(sum.x / weight), static_cast<float>(sum.y / weight),
+            static_cast<float>(sum.z / weight)};
   }
 };
 
-/// All samples of a pixel; nothing when stop(), asked every few hundred rays, has said true.
+/// All samples of a pixel; nothing when stop() has said true.
 template <class Observer, class Stop>
 std::optional<PixelSum> pixel_sum(Tracer<Observer>& tracer, const RenderSettings& settings, Pixel pixel,
                                   const Stop& stop) {
-  tracer.stop = std::ref(stop);
-  const PixelSampler sampler(settings, pixel);
   PixelSum sum;
-  for (std::uint32_t s = 0; s < settings.spp && !tracer.is_stopped(); ++s)
-    sum.add(sample_radiance(tracer, sampler, pixel, s));
-  tracer.stop = nullptr;
-  return tracer.is_stopped() ? std::nullopt : std::optional(sum);
+  const bool complete = visit_samples(tracer, settings, pixel, stop, [&](const TakenSample& sample) {
+    sum.add(sample.color, sample.weight);
+  });
+  return complete ? std::optional(sum) : std::nullopt;
 }
 
 }  // namespace rayfarm

@@ -12,9 +12,8 @@ Probe probe(const World& world, const RenderSettings& settings, double x, double
   if (const std::optional<Hit> hit = tracer.first_hit(x, y))
     result.first_hit = {hit->t, dvec(hit->point), dvec(hit->normal),
                         hit->leaf};  // primary directions are unit
-  result.color = dvec(tracer.radiance(x, y, [&](std::uint32_t) {
-    return Sample2D{light_uv[0], light_uv[1]};
-  }));
+  const auto light_point = [&](std::uint32_t) { return Sample2D{light_uv[0], light_uv[1]}; };
+  result.color = dvec(tracer.radiance(x, y, light_point));
   return result;
 }
 

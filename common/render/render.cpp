@@ -22,7 +22,7 @@ std::optional<std::vector<PassImage>> render_tile(const World& world, const Rend
       stopped = !sum;
       if (stopped) return;
       image.counters.bad_samples += sum->bad_samples;
-      for (const float value : sum->mean(settings.spp)) image.rgb.push_back(value);
+      for (const float value : sum->mean(pixel_weight(settings))) image.rgb.push_back(value);
     });
     if (stopped) return std::nullopt;
     image.counters += tracer.observer.counters;

@@ -81,7 +81,10 @@ Sample2D PixelSampler::sample(std::uint32_t index, std::uint32_t pair) const {
     return {unit_interval32(reversed(laine_karras(i, upper(axes)))),
             unit_interval32(owen_scrambled(sobol_second(i), lower(axes)))};
   }
-  const auto random = [&](std::uint64_t axis) { return unit_interval(keyed(keyed(key, 1 + index), axis)); };
+  const auto bits = [&](std::uint64_t axis) { return keyed(keyed(key, 1 + index), axis); };
+  // With 32 bits the place on the pixel of a place in a cell is exact.
+  if (kind_ == SamplerKind::adapt1) return {unit_interval32(upper(bits(0))), unit_interval32(upper(bits(1)))};
+  const auto random = [&](std::uint64_t axis) { return unit_interval(bits(axis)); };
   if (kind_ == SamplerKind::random) return {random(0), random(1)};
   const std::uint32_t cell = pair == 0 ? index : permuted(index, spp_, lower(key));
   const bool jitter = kind_ == SamplerKind::jitter;

@@ -7,6 +7,7 @@
 // jitter: one sample at random in each of n x n cells. regular: the cells' middles. random: independent.
 //   On lights the cells are dealt in a random order of each pixel's own.
 //   Source of the permutation: A. Kensler, Correlated Multi-Jittered Sampling, Pixar 13-01, 2013.
+// adapt1: independent, a sample for each cell of a quadtree: see adapt1.h.
 #pragma once
 #include <cstdint>
 
@@ -19,7 +20,8 @@ struct Sample2D {
   double u = 0, v = 0;  // 0 <= u, v < 1
 };
 
-/// Pair 0 is the place on the pixel, pair 1 + i the place on light i.
+/// Pair 0 is the place on the pixel, pair 1 + i the place on light i. For adapt1 the index is a cell's number and
+/// pair 0 the place in the cell.
 class PixelSampler {
  public:
   PixelSampler(const RenderSettings& settings, Pixel pixel);

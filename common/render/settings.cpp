@@ -6,7 +6,12 @@
 namespace rayfarm {
 namespace {
 
-constexpr std::array<std::string_view, 4> sampler_names{"sobol", "jitter", "regular", "random"};
+constexpr std::array<std::string_view, 5> names{"sobol", "jitter", "regular", "random", "adapt1"};
+static_assert(names.size() == static_cast<std::size_t>(last_sampler) + 1);
+
+bool wants_a_square(SamplerKind kind) {
+  return kind == SamplerKind::jitter || kind == SamplerKind::regular || kind == SamplerKind::adapt1;
+}
 
 bool is_square(std::uint32_t n) {
   std::uint32_t root = 0;
@@ -16,12 +21,19 @@ bool is_square(std::uint32_t n) {
 
 }  // namespace
 
-std::string_view name_of(SamplerKind kind) { return sampler_names[static_cast<std::size_t>(kind)]; }
+std::string_view name_of(SamplerKind kind) { return names[static_cast<std::size_t>(kind)]; }
 
 std::optional<SamplerKind> sampler_named(std::string_view name) {
-  for (std::size_t i = 0; i < sampler_names.size(); ++i)
-    if (sampler_names[i] == name) return static_cast<SamplerKind>(i);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return static_cast<SamplerKind>(i);
   return std::nullopt;
+}
+
+std::string sampler_names() {
+  std::string list(names.front());
+  for (std::size_t i = 1; i < names.size(); ++i)
+    list.append(i + 1 < names.size() ? ", " : " or ").append(names[i]);
+  return list;
 }
 
 void check(const RenderSettings& s) {
@@ -34,9 +46,8 @@ void check(const RenderSettings& s) {
                         number(s.width) + "x" + number(s.height));
   if (s.spp < 1 || s.spp > max_spp)
     throw SettingsError("--spp must be 1 to " + number(max_spp) + ", is " + number(s.spp));
-  if (static_cast<std::size_t>(s.sampler) >= sampler_names.size())
-    throw SettingsError("--sampler must be sobol, jitter, regular or random");
-  if ((s.sampler == SamplerKind::jitter || s.sampler == SamplerKind::regular) && !is_square(s.spp)) {
+  if (s.sampler > last_sampler) throw SettingsError("--sampler must be " + sampler_names());
+  if (wants_a_square(s.sampler) && !is_square(s.spp)) {
     const auto below = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(s.spp)));
     throw SettingsError("--sampler " + std::string(name_of(s.sampler)) +
                         " wants a square number of samples; --spp " + number(s.spp) + " is none, " +

@@ -10,14 +10,17 @@
 
 namespace rayfarm {
 
-enum class SamplerKind : std::uint8_t { sobol, jitter, regular, random };
+enum class SamplerKind : std::uint8_t { sobol, jitter, regular, random, adapt1 };
+constexpr SamplerKind last_sampler = SamplerKind::adapt1;
 
 std::string_view name_of(SamplerKind kind);
 std::optional<SamplerKind> sampler_named(std::string_view name);
+/// "sobol, jitter, ... or adapt1", for messages.
+std::string sampler_names();
 
 struct RenderSettings {
   std::uint32_t width = 640, height = 480;  // pixels
-  std::uint32_t spp = 16;                   // primary samples per pixel
+  std::uint32_t spp = 16;                   // primary samples per pixel; adapt1: see adapt1.h
   SamplerKind sampler = SamplerKind::sobol;
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;

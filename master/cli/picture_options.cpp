@@ -38,7 +38,7 @@ void add_sample_options(CLI::App& command, PictureOptions& o) {
   command.add_option("SCENE", o.scene_file, "Scene script (Lua)")->required();
   command.add_option("--size", o.size, "Width and height in pixels, e.g. 640x480");
   command.add_option("--spp", o.spp, "Samples per pixel (default 16)");
-  command.add_option("--sampler", o.sampler, "sobol (default), jitter, regular or random");
+  command.add_option("--sampler", o.sampler, "sobol (default), jitter, regular, random or adapt1");
   command.add_option("--seed", o.seed, "Seed of the random numbers (default 0)")->check(whole_number());
   command.add_option("--depth", o.max_depth,
                      "Deepest recursion of reflected and refracted rays (default 12)");
@@ -70,7 +70,7 @@ RenderSettings settings_of(const PictureOptions& o, const ImageDefaults& scene) 
   s.spp = o.spp.value_or(scene.spp.value_or(s.spp));
   if (o.sampler) {
     const std::optional<SamplerKind> sampler = sampler_named(*o.sampler);
-    if (!sampler) throw SettingsError("--sampler must be sobol, jitter, regular or random, is " + *o.sampler);
+    if (!sampler) throw SettingsError("--sampler must be " + sampler_names() + ", is " + *o.sampler);
     s.sampler = *sampler;
   }
   s.seed = o.seed.value_or(s.seed);

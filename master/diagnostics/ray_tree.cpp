@@ -69,9 +69,8 @@ TracedSample traced_sample(const World& world, const RenderSettings& settings, P
                            std::uint32_t number) {
   Tracer<Recorder> tracer(world, settings, Recorder(world));
   const PixelSampler sampler(settings, pixel);
-  sample_radiance(tracer, sampler, pixel, number);
-  const Sample2D place = sampler.sample(number, 0);
-  return {number, pixel.x + place.u, pixel.y + place.v, std::move(tracer.observer.root)};
+  const Sample2D at = taken_sample(tracer, sampler, pixel, number).at;
+  return {number, pixel.x + at.u, pixel.y + at.v, std::move(tracer.observer.root)};
 }
 
 TracedSample traced_centre(const World& world, const RenderSettings& settings, Pixel pixel) {

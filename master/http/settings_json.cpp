@@ -26,7 +26,7 @@ void read(const std::string& name, const json& value, bool& into) {
 void read(const std::string& name, const json& value, SamplerKind& into) {
   const auto sampler = value.is_string() ? sampler_named(value.get<std::string>()) : std::nullopt;
   if (!sampler)
-    throw SettingsError("settings." + name + " must be sobol, jitter, regular or random, is " + value.dump());
+    throw SettingsError("settings." + name + " must be " + sampler_names() + ", is " + value.dump());
   into = *sampler;
 }
 
