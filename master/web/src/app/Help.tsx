@@ -10,11 +10,23 @@ export const helpShown = signal(false);
 const groups: Group[] = ["General", "Jobs", "Picture", "Layers", "Rays"];
 const places = { rays: "in the 3D view", jobs: "in the job list" };
 
+/// The actions on keys by group; those that count only in a place are apart.
+function sectionsOf(all: readonly Action[]): { title: string; listed: Action[] }[] {
+  const scopes: Action["scope"][] = [undefined, "jobs", "rays"];
+  return groups
+    .flatMap((group) =>
+      scopes.map((scope) => ({
+        title: scope ? `${group}, ${places[scope]}` : group,
+        listed: all.filter((one) => one.keys.length > 0 && one.group === group && one.scope === scope),
+      })),
+    )
+    .filter(({ listed }) => listed.length > 0);
+}
+
 /// All that keys do.
 export function Help() {
   if (!helpShown.value) return null;
   const close = () => (helpShown.value = false);
-  const withKeys = actions.value.filter((action) => action.keys.length > 0);
   return (
     <Dialog label="Keys" class="help" close={close}>
       <div>
@@ -25,20 +37,19 @@ export function Help() {
           </button>
         </header>
         <div class="groups">
-          {groups.map((group) => {
-            const listed = withKeys.filter((action) => action.group === group);
-            return listed.length > 0 && <KeyGroup key={group} group={group} listed={listed} />;
-          })}
+          {sectionsOf(actions.value).map(({ title, listed }) => (
+            <KeyGroup key={title} title={title} listed={listed} />
+          ))}
         </div>
       </div>
     </Dialog>
   );
 }
 
-function KeyGroup({ group, listed }: { group: Group; listed: Action[] }) {
+function KeyGroup({ title, listed }: { title: string; listed: Action[] }) {
   return (
     <section>
-      <h3>{group}</h3>
+      <h3>{title}</h3>
       <dl>
         {listed.map((action) => (
           <Fragment key={action.id}>
@@ -47,10 +58,7 @@ function KeyGroup({ group, listed }: { group: Group; listed: Action[] }) {
                 <Keys key={key} keys={key} />
               ))}
             </dt>
-            <dd>
-              {action.title}
-              {action.scope && <span class="quiet"> {places[action.scope]}</span>}
-            </dd>
+            <dd>{action.title}</dd>
           </Fragment>
         ))}
       </dl>
