@@ -9,6 +9,7 @@ import { startTheme } from "./app/theme";
 import { startTitle } from "./app/title";
 import { registerJobs } from "./jobs/job_actions";
 import { startSelection } from "./jobs/selection";
+import { registerRayActions } from "./rays/actions";
 import { startThroughput } from "./workers/throughput";
 import "./app/style.css";
 
@@ -18,6 +19,7 @@ startClock();
 startTitle();
 registerGeneral();
 registerJobs();
+registerRayActions();
 startSelection();
 startThroughput();
 startKeys();

@@ -23,9 +23,9 @@ export function mapPath(job: number, choice: LayerChoice, map: MapEntry, format:
   return `/jobs/${job}/maps/${map.name}?${query.toString()}`;
 }
 
-const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
+export const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
 
-function download(blob: Blob, name: string): void {
+export function download(blob: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
   link.download = name;

@@ -1,0 +1,50 @@
+// Where the 3D view stands and where it is going.
+import { signal } from "@preact/signals";
+import { alongRay, alike, moved, overview, poseBetween, zoomed, type Pose } from "./pose";
+import type { Vec3 } from "../app/types";
+
+export const home = signal<Pose>(overview([[-1, -1, -1], [1, 1, 1]], [0, 0, 1], [0, 1, 0]));
+export const pose = signal<Pose>(home.value);
+const goal = signal<Pose>(home.value);
+/// Differs from pose while the view is on its way.
+export const isStill = (): boolean => pose.value === goal.value;
+
+export function jumpTo(to: Pose): void {
+  goal.value = pose.value = to;
+}
+
+export function goTo(to: Pose): void {
+  goal.value = to;
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches) pose.value = to;
+}
+
+/// Steps from where the view is going, so that repeated keys add up.
+export const goBy = (step: (from: Pose) => Pose): void => goTo(step(goal.value));
+/// Follows the hand at once.
+export const jumpBy = (step: (from: Pose) => Pose): void => jumpTo(step(pose.value));
+
+const settling = 90; // milliseconds until a way is down to its 1/e
+
+/// After so many milliseconds more.
+export function approach(milliseconds: number): void {
+  if (isStill()) return;
+  const next = poseBetween(pose.value, goal.value, 1 - Math.exp(-milliseconds / settling));
+  pose.value = alike(next, goal.value) ? goal.value : next;
+}
+
+/// All the places are seen from there.
+export function setHome(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3): void {
+  const before = goal.value;
+  home.value = overview(places, cameraDirection, up);
+  jumpTo({ ...home.value, orthographic: before.orthographic });
+}
+
+export const reset = (): void => goTo({ ...home.value, orthographic: goal.value.orthographic });
+export const toggleOrthographic = (): void => jumpBy((from) => ({ ...from, orthographic: !from.orthographic }));
+export const step = (right: number, up: number, forward: number): void => goBy((from) => moved(from, right, up, forward));
+export const zoom = (factor: number): void => goBy((from) => zoomed(from, factor));
+
+/// From the ray's origin along it; its end is in the middle, where turning goes around.
+export function lookAlong(origin: Vec3, direction: Vec3, distance: number): void {
+  goBy((from) => alongRay(from, origin, direction, distance, home.value.up));
+}

@@ -1,0 +1,54 @@
+// The rays as a drawing: what the 3D view shows, as SVG.
+import { cssOf } from "./color";
+import type { Pose } from "./pose";
+import { projectorOf, type Point2 } from "./projection";
+import type { SceneView } from "./scene";
+import type { Segment } from "./segments";
+import { penOf } from "./strokes";
+import { edgesOf } from "./vec";
+
+const escaped = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
+const line = ([a, b]: [Point2, Point2], attributes: string): string =>
+  `<line x1="${a.x.toFixed(2)}" y1="${a.y.toFixed(2)}" x2="${b.x.toFixed(2)}" y2="${b.y.toFixed(2)}" ${attributes}/>`;
+
+export interface Drawing {
+  pose: Pose;
+  width: number;
+  height: number;
+  scene: SceneView | null;
+  boxes: boolean;
+  segments: readonly Segment[];
+  importanceAs: string;
+  title: string;
+}
+
+/// The rays as the view shows them, over the boxes.
+export function svgOf(drawing: Drawing): string {
+  const { width, height } = drawing;
+  const projector = projectorOf(drawing.pose, width, height);
+  const boxes = (drawing.boxes && drawing.scene ? drawing.scene.solids : []).flatMap((solid) => {
+    const edges = solid.box ? edgesOf(solid.box) : [];
+    return edges.flatMap(({ from, to }) => {
+      const seen = projector.segment(from, to);
+      return seen ? [line(seen, `stroke="${cssOf(solid.color)}" stroke-opacity="0.7"`)] : [];
+    });
+  });
+  const rays = drawing.segments.flatMap((segment) => {
+    const seen = projector.segment(segment.from, segment.to);
+    if (!seen) return [];
+    const pen = penOf(segment, drawing.importanceAs);
+    const dash = pen.dash ? ` stroke-dasharray="${pen.dash.join(" ")}"` : "";
+    return [line(seen, `stroke="${pen.color}" stroke-width="${pen.width.toFixed(2)}" stroke-opacity="${pen.opacity.toFixed(2)}"${dash}`)];
+  });
+  return [
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">`,
+    `<title>${escaped(drawing.title)}</title>`,
+    `<rect width="${width}" height="${height}" fill="${cssOf(drawing.scene?.background ?? [1, 1, 1])}"/>`,
+    `<g fill="none" stroke-linecap="round">`,
+    ...boxes,
+    ...rays,
+    `</g>`,
+    `</svg>`,
+    "",
+  ].join("\n");
+}

@@ -1,0 +1,77 @@
+// The rays of the probed pixel, asked of the master while somebody looks. One request at a time: of the pixels that the
+// pointer passes meanwhile only the newest is asked for.
+import { computed, effect, signal } from "@preact/signals";
+import { getJson } from "../app/api";
+import { probed, selectedId, type Pixel } from "../app/state";
+import { newestWins } from "./newest";
+import type { PixelTrace } from "./trace";
+
+/// A sample by its number, all of the pixel, or the pixel's centre, which the picture did not use.
+export type SampleChoice = number | "all" | "centre";
+export const sampleChoice = signal<SampleChoice>(0);
+
+export interface Question {
+  job: number;
+  pixel: Pixel;
+  sample: SampleChoice;
+}
+
+export interface Answer {
+  question: Question;
+  trace: PixelTrace;
+  milliseconds: number; // from the request to the decoded answer
+}
+
+/// The newest; it stays while the next one is under way.
+export const answer = signal<Answer | null>(null);
+export const asking = signal(false);
+/// Why there is no newer answer, in words.
+export const probeError = signal<string | null>(null);
+
+const question = computed<Question | null>(() =>
+  selectedId.value === null || !probed.value
+    ? null
+    : { job: selectedId.value, pixel: probed.value, sample: sampleChoice.value },
+);
+
+export const pathOf = ({ job, pixel, sample }: Question): string =>
+  `/jobs/${job}/trace?x=${pixel.x}&y=${pixel.y}&sample=${sample}`;
+
+async function fetchAnswer(asked: Question, signal: AbortSignal): Promise<Answer> {
+  const start = performance.now();
+  const trace = await getJson<PixelTrace>(pathOf(asked), signal);
+  return { question: asked, trace, milliseconds: performance.now() - start };
+}
+
+/// Until the result is called. For one follower at a time.
+export function followProbe(): () => void {
+  const newest = newestWins(
+    fetchAnswer,
+    (asked, got: Answer) => {
+      answer.value = got;
+      probeError.value = null;
+      asking.value = question.peek() !== asked;
+    },
+    (asked, error) => {
+      probeError.value = error instanceof Error ? error.message : String(error);
+      asking.value = question.peek() !== asked;
+    },
+  );
+  let job: number | null = null;
+  const unfollow = effect(() => {
+    const next = question.value;
+    if (next?.job !== job) {
+      newest.stop();
+      if (answer.peek()?.question.job !== next?.job) answer.value = null;
+      probeError.value = null;
+    }
+    job = next?.job ?? null;
+    asking.value = next !== null;
+    if (next) newest.ask(next);
+  });
+  return () => {
+    unfollow();
+    newest.stop();
+    asking.value = false;
+  };
+}

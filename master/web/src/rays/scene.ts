@@ -1,0 +1,75 @@
+// The selected job's scene as the master describes it (GET /jobs/ID/scene), for the 3D view.
+import { computed, effect, signal } from "@preact/signals";
+import { getJson } from "../app/api";
+import { selectedId } from "../app/state";
+import type { Vec3 } from "../app/types";
+import { answer } from "./probe";
+import { cutBox } from "./segments";
+import { type Box, boxAround, centreOf, diagonalOf, edgesOf, lengthOf, minus } from "./vec";
+
+export type SolidKind = "sphere" | "cube" | "plane" | "cylinder" | "torus";
+
+export interface SolidView {
+  leaf: number;
+  name: string;
+  kind: SolidKind;
+  color: Vec3; // linear
+  box: Box | null; // null: endless
+  matrix: number[]; // 12 numbers: the rows of world_from_local
+  parameters: Record<string, number | null>; // null: endless
+}
+
+export type LightView =
+  | { kind: "ambient"; intensity: Vec3 }
+  | { kind: "point"; at: Vec3; intensity: Vec3 }
+  | { kind: "rectangle"; at: Vec3; width: Vec3; height: Vec3; intensity: Vec3 };
+
+export interface SceneView {
+  background: Vec3; // linear
+  camera: { kind: string; from: Vec3; direction: Vec3; up: Vec3; angle_deg: number };
+  lights: LightView[];
+  solids: SolidView[];
+  truncated: boolean; // more solids than are told
+}
+
+export const scene = signal<SceneView | null>(null);
+export const sceneError = signal<string | null>(null);
+
+/// Around the solids that end somewhere and the camera.
+export function boxOf(view: SceneView): Box {
+  const corners = view.solids.flatMap(({ box }) => (box ? [box.min, box.max] : []));
+  return boxAround([...corners, view.camera.from])!;
+}
+
+const farLight = 3; // times the scene's size; beyond it a light is not among the landmarks
+
+/// What an overview shows: the solids that end somewhere, the camera, and the lights unless they are far away.
+export function landmarksOf(view: SceneView): Vec3[] {
+  const box = boxOf(view);
+  const reach = farLight * diagonalOf(box);
+  const lights = view.lights.flatMap((light) => (light.kind === "ambient" ? [] : [light.at]));
+  const near = lights.filter((at) => lengthOf(minus(at, centreOf(box))) <= reach);
+  return [...edgesOf(box).flatMap(({ from, to }) => [from, to]), ...near];
+}
+
+/// Around the scene and the rays: where rays that miss are cut.
+export const box = computed<Box>(() =>
+  cutBox(scene.value && boxOf(scene.value), answer.value?.trace ?? { pixel: [0, 0], samples: [] }),
+);
+
+/// Of the selected job, until the result is called.
+export function followScene(): () => void {
+  return effect(() => {
+    scene.value = sceneError.value = null;
+    const job = selectedId.value;
+    if (job === null) return;
+    const controller = new AbortController();
+    getJson<SceneView>(`/jobs/${job}/scene`, controller.signal).then(
+      (view) => (scene.value = view),
+      (error: unknown) => {
+        if (!controller.signal.aborted) sceneError.value = error instanceof Error ? error.message : String(error);
+      },
+    );
+    return () => controller.abort();
+  });
+}
