@@ -39,7 +39,8 @@ function open(canvas: HTMLCanvasElement): () => void {
   try {
     view = openView(canvas, (still) => (viewIsStill.value = still));
   } catch {
-    noView.value = "This browser draws no 3D (WebGL 2 is off or missing); the ray tree and the chart are complete.";
+    noView.value =
+      "This browser draws no 3D (WebGL 2 is off or missing); the ray tree and the chart are complete.";
     viewIsStill.value = true;
     return () => undefined;
   }
@@ -75,16 +76,23 @@ function CloudProgress() {
   if (cloud.state === "making")
     return (
       <p class="rays-note" role="status">
-        The master collects the point cloud <progress value={cloud.progress} /> {Math.floor(100 * cloud.progress)} %
+        The master collects the point cloud <progress value={cloud.progress} />{" "}
+        {Math.floor(100 * cloud.progress)} %
       </p>
     );
   if (cloud.state === "loading")
     return (
       <p class="rays-note" role="status">
-        Loading the point cloud {cloud.total && <progress value={cloud.bytes / cloud.total} />} {bytes(cloud.bytes)}
+        Loading the point cloud {cloud.total && <progress value={cloud.bytes / cloud.total} />}{" "}
+        {bytes(cloud.bytes)}
       </p>
     );
-  if (cloud.state === "failed") return <p class="rays-note bad" role="alert">Point cloud: {cloud.message}</p>;
+  if (cloud.state === "failed")
+    return (
+      <p class="rays-note bad" role="alert">
+        Point cloud: {cloud.message}
+      </p>
+    );
   return null;
 }
 
@@ -100,16 +108,33 @@ export function RayCanvas() {
   const cloud = cloudState.value;
   return (
     <div class="rays-view" data-cloud={cloud.state === "ready" ? cloud.cloud.count : cloud.state}>
-      <canvas ref={canvas} aria-label="The scene and the rays in 3D" role="img" hidden={noView.value !== null} />
+      <canvas
+        ref={canvas}
+        aria-label="The scene and the rays in 3D"
+        role="img"
+        hidden={noView.value !== null}
+      />
       <div class="rays-notes">
         {noView.value && <p class="rays-note">{noView}</p>}
         <Hint />
-        {probeError.value && <p class="rays-note bad" role="alert">{probeError}</p>}
-        {sceneError.value && <p class="rays-note bad" role="alert">Scene: {sceneError}</p>}
+        {probeError.value && (
+          <p class="rays-note bad" role="alert">
+            {probeError}
+          </p>
+        )}
+        {sceneError.value && (
+          <p class="rays-note bad" role="alert">
+            Scene: {sceneError}
+          </p>
+        )}
         <CloudProgress />
-        {scene.value?.truncated && <p class="rays-note">The scene has more solids than the 20 000 that are shown.</p>}
+        {scene.value?.truncated && (
+          <p class="rays-note">The scene has more solids than the 20 000 that are shown.</p>
+        )}
         {answer.value?.trace.truncated && <p class="rays-note">Only the first 20 000 rays were recorded.</p>}
-        {shown.preview.value && scene.value && <p class="rays-note">Each solid by itself: set operations are not applied.</p>}
+        {shown.preview.value && scene.value && (
+          <p class="rays-note">Each solid by itself: set operations are not applied.</p>
+        )}
       </div>
       {tip.value && (
         <div class="rays-tip" style={{ left: `${tip.value.x + 12}px`, top: `${tip.value.y + 12}px` }}>

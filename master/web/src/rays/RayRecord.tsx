@@ -8,7 +8,12 @@ export function RayRecord() {
   const entry = described.value;
   const sample = entry && answer.value?.trace.samples[entry.sample];
   return (
-    <section class="rays-record" aria-label="Record of the ray" data-entry={entry?.id} data-record={entry ? nameOf(entry) : ""}>
+    <section
+      class="rays-record"
+      aria-label="Record of the ray"
+      data-entry={entry?.id}
+      data-record={entry ? nameOf(entry) : ""}
+    >
       {entry && sample ? (
         <dl>
           {fieldsOf(entry, sample).map(({ label, text, color }) => (

@@ -24,7 +24,9 @@ function flip(ids: readonly string[]): void {
 
 function key(event: KeyboardEvent): void {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
-  const handled = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Home", "End", "Enter", " "].includes(event.key);
+  const handled = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Home", "End", "Enter", " "].includes(
+    event.key,
+  );
   if (!handled) return;
   event.preventDefault();
   const move = moveOf(event.key, rows.value, selected.value?.id ?? null);
@@ -53,7 +55,11 @@ function Name({ entry }: { entry: Entry }) {
   return (
     <>
       <b>{sample.sample}</b> {nameOf(entry)}
-      {outlier && <em class="outlier" title={title}>outlier</em>}
+      {outlier && (
+        <em class="outlier" title={title}>
+          outlier
+        </em>
+      )}
     </>
   );
 }
@@ -63,8 +69,16 @@ function Value({ entry }: { entry: Entry }) {
   const color = entry.what === "ray" ? entry.ray.color : entry.light.color;
   return (
     <>
-      {entry.what === "ray" && <span class="value quiet" title="Importance">{short(entry.ray.importance, 2)}</span>}
-      <span class="rays-patch" style={{ background: cssOf(color) }} title={`Colour ${color.map((c) => short(c, 3)).join(", ")}`} />
+      {entry.what === "ray" && (
+        <span class="value quiet" title="Importance">
+          {short(entry.ray.importance, 2)}
+        </span>
+      )}
+      <span
+        class="rays-patch"
+        style={{ background: cssOf(color) }}
+        title={`Colour ${color.map((c) => short(c, 3)).join(", ")}`}
+      />
     </>
   );
 }
@@ -88,9 +102,13 @@ function TreeLine({ row }: { row: TreeRow }) {
       onClick={() => select(id)}
       onDblClick={() => parent && flip([id])}
     >
-      <span class="twisty" onClick={() => flip(parent ? [id] : [])}>{parent ? (open ? "▾" : "▸") : ""}</span>
+      <span class="twisty" onClick={() => flip(parent ? [id] : [])}>
+        {parent ? (open ? "▾" : "▸") : ""}
+      </span>
       <Mark entry={entry} />
-      <span class="name"><Name entry={entry} /></span>
+      <span class="name">
+        <Name entry={entry} />
+      </span>
       <Value entry={entry} />
     </div>
   );
@@ -105,7 +123,8 @@ function followSelection(list: HTMLElement): () => void {
     if (closed.length > 0) flip(closed);
     const top = rows.peek().findIndex((row) => row.entry.id === id) * rowHeight;
     if (top < list.scrollTop) list.scrollTop = top;
-    else if (top + rowHeight > list.scrollTop + list.clientHeight) list.scrollTop = top + rowHeight - list.clientHeight;
+    else if (top + rowHeight > list.scrollTop + list.clientHeight)
+      list.scrollTop = top + rowHeight - list.clientHeight;
   });
 }
 
@@ -151,8 +170,8 @@ export function RayTree() {
       </div>
       {samples.value.length > 1 && (
         <p class="tree-foot quiet" title={outlierRule}>
-          {many === 0 ? "No outliers" : many === 1 ? "1 outlier" : `${many} outliers`}: {"> 2 σ"} of luminance, σ ={" "}
-          {short(spread.value.deviation, 3)}
+          {many === 0 ? "No outliers" : many === 1 ? "1 outlier" : `${many} outliers`}: {"> 2 σ"} of
+          luminance, σ = {short(spread.value.deviation, 3)}
         </p>
       )}
     </section>

@@ -1,7 +1,7 @@
 // The rays of the probed pixel in 3D, as a tree, and as spans. Loaded when it is first shown.
 import { effect, untracked } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { probed, selectedId } from "../app/state";
+import { selectedId } from "../app/state";
 import { alignWithPrimary } from "./align";
 import { setHome } from "./camera";
 import { followCloud } from "./cloud";
@@ -49,7 +49,6 @@ export function RaysArea() {
       data-sample={String(sampleChoice.value)}
       data-rays={rayCount.value}
       data-segments={segmentsShown.value.length}
-      data-probed={probed.value ? `${probed.value.x},${probed.value.y}` : ""}
     >
       <div class="rays-body">
         <Toolbar />

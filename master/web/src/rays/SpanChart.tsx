@@ -43,10 +43,21 @@ function Bars({ row, index, ray }: { row: Row; index: number; ray: TracedRay }) 
           onBlur={leave}
         >
           <title>{`${row.name}: ${words(bar)}`}</title>
-          <rect x={at(bar.from)} width={at(Math.max(bar.to - bar.from, 0.002))} y={y} height={rowHeight - 6} rx="2" fill={fill} />
+          <rect
+            x={at(bar.from)}
+            width={at(Math.max(bar.to - bar.from, 0.002))}
+            y={y}
+            height={rowHeight - 6}
+            rx="2"
+            fill={fill}
+          />
           {bar.endless && (
             <svg x="100%" y={y} overflow="visible">
-              <path d={`M0 -1 l7 ${(rowHeight - 4) / 2} l-7 ${(rowHeight - 4) / 2} z`} fill={fill} stroke="none" />
+              <path
+                d={`M0 -1 l7 ${(rowHeight - 4) / 2} l-7 ${(rowHeight - 4) / 2} z`}
+                fill={fill}
+                stroke="none"
+              />
             </svg>
           )}
         </g>
@@ -95,7 +106,10 @@ export function SpanChart() {
   const empty = sample.csg.leaves.length === 0;
   return (
     <section class="rays-spans" aria-label="Set operations along the primary ray">
-      <h3>Inside which solids along the primary ray{sample.sample === "centre" ? "" : ` of sample ${sample.sample}`}</h3>
+      <h3>
+        Solids along the primary ray{sample.sample === "centre" ? "" : ` of sample ${sample.sample}`}: inside
+        which solids
+      </h3>
       {empty ? <p class="quiet">It passes through none.</p> : <Chart sample={sample} />}
     </section>
   );

@@ -14,7 +14,13 @@ import { styles } from "./strokes";
 /// A piece of the line that stands for a kind of ray.
 export function StrokeSample({ stroke, missed = false }: { stroke: Stroke; missed?: boolean }) {
   const { color, halo, dash, width } = styles[stroke];
-  const shape = { x1: 1, y1: 5, x2: 19, y2: 5, "stroke-dasharray": dash ? dash.map((d) => d / 1.8).join(" ") : undefined };
+  const shape = {
+    x1: 1,
+    y1: 5,
+    x2: 19,
+    y2: 5,
+    "stroke-dasharray": dash ? dash.map((d) => d / 1.8).join(" ") : undefined,
+  };
   return (
     <svg class="stroke-sample" width="20" height="10" aria-hidden="true" opacity={missed ? 0.55 : 1}>
       <line {...shape} stroke={halo} stroke-width={width + 1.5} stroke-opacity="0.5" />
@@ -23,7 +29,17 @@ export function StrokeSample({ stroke, missed = false }: { stroke: Stroke; misse
   );
 }
 
-function Toggle({ of, name, stroke, title }: { of: Signal<boolean>; name: string; stroke?: Stroke; title: string }) {
+function Toggle({
+  of,
+  name,
+  stroke,
+  title,
+}: {
+  of: Signal<boolean>;
+  name: string;
+  stroke?: Stroke;
+  title: string;
+}) {
   return (
     <button class="chip" aria-pressed={of.value} title={title} onClick={() => (of.value = !of.value)}>
       {stroke && <StrokeSample stroke={stroke} />}
@@ -82,9 +98,17 @@ function Exports() {
   const none = answer.value === null;
   return (
     <span class="group" role="group" aria-label="Save">
-      <button onClick={() => void savePng().catch(tellError)} title="Save the 3D view as a picture">PNG</button>
-      <button onClick={saveSvg} disabled={none} title="Save the rays as this view shows them, as a drawing">SVG</button>
-      <button onClick={() => save(traceJson(), "json")} disabled={none} title="Save the trace as the master sent it">
+      <button onClick={() => void savePng().catch(tellError)} title="Save the 3D view as a picture">
+        PNG
+      </button>
+      <button onClick={saveSvg} disabled={none} title="Save the rays as this view shows them, as a drawing">
+        SVG
+      </button>
+      <button
+        onClick={() => save(traceJson(), "json")}
+        disabled={none}
+        title="Save the trace as the master sent it"
+      >
         JSON
       </button>
     </span>
@@ -94,17 +118,31 @@ function Exports() {
 function View() {
   return (
     <span class="group" role="group" aria-label="View">
-      <button onClick={alignWithPrimary} disabled={answer.value === null} title="Look along the primary ray from the eye (Shift+L)">
+      <button
+        onClick={alignWithPrimary}
+        disabled={answer.value === null}
+        title="Look along the primary ray from the eye (Shift+L)"
+      >
         Align
       </button>
-      <button aria-pressed={keepAligned.value} onClick={toggleKeepAligned} title="Keep looking along the primary ray while the pixel changes (L)">
+      <button
+        aria-pressed={keepAligned.value}
+        onClick={toggleKeepAligned}
+        title="Keep looking along the primary ray while the pixel changes (L)"
+      >
         Keep aligned
       </button>
       <button onClick={alignWithSelected} disabled={!selected.value} title="Look along the selected ray">
         Along ray
       </button>
-      <button onClick={reset} title="See the whole scene (R)">Reset</button>
-      <button aria-pressed={pose.value.orthographic} onClick={toggleOrthographic} title="Orthographic instead of perspective (O)">
+      <button onClick={reset} title="See the whole scene (R)">
+        Reset
+      </button>
+      <button
+        aria-pressed={pose.value.orthographic}
+        onClick={toggleOrthographic}
+        title="Orthographic instead of perspective (O)"
+      >
         Ortho
       </button>
     </span>
@@ -122,8 +160,17 @@ export function Toolbar() {
         <Toggle of={shown.camera} name="Camera" stroke="camera" title="Camera rays" />
         <Toggle of={shown.reflected} name="Reflected" stroke="reflected" title="Reflected rays" />
         <Toggle of={shown.refracted} name="Refracted" stroke="refracted" title="Refracted rays" />
-        <Toggle of={shown.shadow} name="Shadow" stroke="shadow" title="Rays to the lights; dark behind what blocks them" />
-        <Toggle of={shown.misses} name="Misses" title="Rays that hit nothing; they are cut around the scene" />
+        <Toggle
+          of={shown.shadow}
+          name="Shadow"
+          stroke="shadow"
+          title="Rays to the lights; dark behind what blocks them"
+        />
+        <Toggle
+          of={shown.misses}
+          name="Misses"
+          title="Rays that hit nothing; they are cut around the scene"
+        />
         <Toggle of={shown.normals} name="Normals" title="Surface normals where rays hit" />
         <i />
         <Toggle of={shown.boxes} name="Boxes" title="Bounding boxes in the solids' colours (B)" />
@@ -132,21 +179,23 @@ export function Toolbar() {
         <Toggle of={shown.icons} name="Icons" title="The camera and the lights" />
         <Toggle of={shown.axes} name="Axes" title="The world's axes" />
         <i />
-        <label>
-          Boxes{" "}
-          <select value={boxStyle.value} onChange={(event) => (boxStyle.value = event.currentTarget.value as BoxStyle)}>
-            <option value="wireframe">as wires</option>
-            <option value="filled">filled</option>
-          </select>
-        </label>
-        <label>
-          Importance{" "}
-          <select value={importanceAs.value} onChange={(event) => (importanceAs.value = event.currentTarget.value as ImportanceAs)}>
-            <option value="width">as width</option>
-            <option value="opacity">as opacity</option>
-            <option value="nothing">not shown</option>
-          </select>
-        </label>
+        <select
+          aria-label="How boxes are drawn"
+          value={boxStyle.value}
+          onChange={(event) => (boxStyle.value = event.currentTarget.value as BoxStyle)}
+        >
+          <option value="wireframe">wire boxes</option>
+          <option value="filled">filled boxes</option>
+        </select>
+        <select
+          aria-label="How a ray's importance is seen"
+          value={importanceAs.value}
+          onChange={(event) => (importanceAs.value = event.currentTarget.value as ImportanceAs)}
+        >
+          <option value="width">importance: width</option>
+          <option value="opacity">importance: opacity</option>
+          <option value="nothing">importance: none</option>
+        </select>
       </div>
     </div>
   );

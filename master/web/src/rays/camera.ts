@@ -3,7 +3,16 @@ import { signal } from "@preact/signals";
 import { alongRay, alike, moved, overview, poseBetween, zoomed, type Pose } from "./pose";
 import type { Vec3 } from "../app/types";
 
-export const home = signal<Pose>(overview([[-1, -1, -1], [1, 1, 1]], [0, 0, 1], [0, 1, 0]));
+export const home = signal<Pose>(
+  overview(
+    [
+      [-1, -1, -1],
+      [1, 1, 1],
+    ],
+    [0, 0, 1],
+    [0, 1, 0],
+  ),
+);
 export const pose = signal<Pose>(home.value);
 const goal = signal<Pose>(home.value);
 /// Differs from pose while the view is on its way.
@@ -40,8 +49,10 @@ export function setHome(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3
 }
 
 export const reset = (): void => goTo({ ...home.value, orthographic: goal.value.orthographic });
-export const toggleOrthographic = (): void => jumpBy((from) => ({ ...from, orthographic: !from.orthographic }));
-export const step = (right: number, up: number, forward: number): void => goBy((from) => moved(from, right, up, forward));
+export const toggleOrthographic = (): void =>
+  jumpBy((from) => ({ ...from, orthographic: !from.orthographic }));
+export const step = (right: number, up: number, forward: number): void =>
+  goBy((from) => moved(from, right, up, forward));
 export const zoom = (factor: number): void => goBy((from) => zoomed(from, factor));
 
 /// From the ray's origin along it; its end is in the middle, where turning goes around.

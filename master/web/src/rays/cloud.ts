@@ -17,7 +17,10 @@ export const cloudState = signal<CloudState>({ state: "none" });
 const mostPoints = 200_000;
 
 /// The body as it comes in; `heard` is told how much is there.
-export async function bodyOf(response: Response, heard: (bytes: number, total: number | null) => void): Promise<ArrayBuffer> {
+export async function bodyOf(
+  response: Response,
+  heard: (bytes: number, total: number | null) => void,
+): Promise<ArrayBuffer> {
   const length = response.headers.get("Content-Length");
   const total = length === null ? null : Number(length);
   const chunks: Uint8Array<ArrayBuffer>[] = [];

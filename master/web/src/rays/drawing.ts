@@ -7,7 +7,8 @@ import type { Segment } from "./segments";
 import { penOf } from "./strokes";
 import { edgesOf } from "./vec";
 
-const escaped = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
+const escaped = (text: string): string =>
+  text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
 const line = ([a, b]: [Point2, Point2], attributes: string): string =>
   `<line x1="${a.x.toFixed(2)}" y1="${a.y.toFixed(2)}" x2="${b.x.toFixed(2)}" y2="${b.y.toFixed(2)}" ${attributes}/>`;
 
@@ -38,7 +39,12 @@ export function svgOf(drawing: Drawing): string {
     if (!seen) return [];
     const pen = penOf(segment, drawing.importanceAs);
     const dash = pen.dash ? ` stroke-dasharray="${pen.dash.join(" ")}"` : "";
-    return [line(seen, `stroke="${pen.color}" stroke-width="${pen.width.toFixed(2)}" stroke-opacity="${pen.opacity.toFixed(2)}"${dash}`)];
+    return [
+      line(
+        seen,
+        `stroke="${pen.color}" stroke-width="${pen.width.toFixed(2)}" stroke-opacity="${pen.opacity.toFixed(2)}"${dash}`,
+      ),
+    ];
   });
   return [
     `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">`,

@@ -12,7 +12,10 @@ import { segmentsShown } from "./segments_shown";
 export function save(blob: Blob, extension: "png" | "svg" | "json"): void {
   const job = selectedJob.value;
   const pixel = answer.value?.question.pixel;
-  download(blob, `${job ? baseName(job) : "scene"}-rays${pixel ? `-${pixel.x}-${pixel.y}` : ""}.${extension}`);
+  download(
+    blob,
+    `${job ? baseName(job) : "scene"}-rays${pixel ? `-${pixel.x}-${pixel.y}` : ""}.${extension}`,
+  );
 }
 
 export const traceJson = (): Blob =>

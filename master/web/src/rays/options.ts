@@ -20,7 +20,11 @@ export const shown = {
 export type Shown = keyof typeof shown;
 
 export type BoxStyle = "wireframe" | "filled";
-export const boxStyle = stored<BoxStyle>("rays-box-style", "wireframe", (v) => v === "wireframe" || v === "filled");
+export const boxStyle = stored<BoxStyle>(
+  "rays-box-style",
+  "wireframe",
+  (v) => v === "wireframe" || v === "filled",
+);
 
 /// How a ray's importance is seen.
 export type ImportanceAs = "width" | "opacity" | "nothing";

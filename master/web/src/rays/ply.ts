@@ -4,7 +4,7 @@
 export interface Cloud {
   count: number;
   positions: Float32Array; // x, y, z as in the file: z points towards the viewer
-  colors: Uint16Array; // linear red, green, blue; 65535 is 1
+  colors: Uint8Array; // of the surfaces: linear red, green, blue; 255 is 1
 }
 
 type Read = (view: DataView, at: number) => number;
@@ -43,8 +43,10 @@ function headerOf(buffer: ArrayBuffer): Header {
   const header: Header = { count: 0, stride: 0, body: end + "end_header\n".length, fields: new Map() };
   for (const line of text.slice(0, end).split("\n")) {
     const [word, first = "", second = ""] = line.split(" ");
-    if (word === "format" && first !== "binary_little_endian") throw new Error(`a PLY file in ${first} cannot be shown`);
-    if (word === "element" && first !== "vertex") throw new Error(`a PLY file with ${first} elements cannot be shown`);
+    if (word === "format" && first !== "binary_little_endian")
+      throw new Error(`a PLY file in ${first} cannot be shown`);
+    if (word === "element" && first !== "vertex")
+      throw new Error(`a PLY file with ${first} elements cannot be shown`);
     if (word === "element") header.count = Number(second);
     if (word !== "property") continue;
     const type = types[otherNames[first] ?? first];
@@ -68,18 +70,12 @@ export function parsePly(buffer: ArrayBuffer): Cloud {
   const channels = ["red", "green", "blue"].map(field);
 
   const positions = new Float32Array(3 * count);
-  const colors = new Uint16Array(3 * count);
+  const colors = new Uint8Array(3 * count);
   for (let i = 0, at = 0; i < count; ++i, at += stride) {
     for (let k = 0; k < 3; ++k) {
       positions[3 * i + k] = axes[k]!.read(view, at + axes[k]!.at);
-      colors[3 * i + k] = linear[channels[k]!.read(view, at + channels[k]!.at)]!;
+      colors[3 * i + k] = channels[k]!.read(view, at + channels[k]!.at);
     }
   }
   return { count, positions, colors };
 }
-
-/// Of an sRGB byte, 65535 for 1. Source: IEC 61966-2-1.
-const linear = Uint16Array.from({ length: 256 }, (_, byte) => {
-  const s = byte / 255;
-  return Math.round(65535 * (s <= 0.04045 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4));
-});

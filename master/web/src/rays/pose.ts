@@ -1,6 +1,20 @@
 // From where and how the 3D view looks at the world, as a value. Left-handed as the world: right = up x forward.
 import type { Vec3 } from "../app/types";
-import { add, along, between, boxAround, centreOf, cross, diagonalOf, dot, lengthOf, minus, squareTo, times, unit } from "./vec";
+import {
+  add,
+  along,
+  between,
+  boxAround,
+  centreOf,
+  cross,
+  diagonalOf,
+  dot,
+  lengthOf,
+  minus,
+  squareTo,
+  times,
+  unit,
+} from "./vec";
 
 export interface Pose {
   eye: Vec3;
@@ -34,14 +48,14 @@ function turned(v: Vec3, axis: Vec3, angle: number): Vec3 {
 
 const poleMargin = 0.02; // radians that stay between the view and straight up or down
 
-/// Around the target: to the right and upwards, in radians.
+/// Around the target, as a hand turns what it holds: its near side goes to the right, the eye up. In radians.
 export function orbited(pose: Pose, right: number, up: number): Pose {
   const axes = axesOf(pose);
   const height = Math.asin(Math.max(-1, Math.min(1, dot(axes.forward, pose.up)))); // of the view's direction
   const limit = Math.PI / 2 - poleMargin;
   const tilt = Math.max(-limit, Math.min(limit, height - up)) - height;
   const tilted = turned(minus(pose.eye, pose.target), axes.right, -tilt);
-  return { ...pose, eye: add(pose.target, turned(tilted, pose.up, -right)) };
+  return { ...pose, eye: add(pose.target, turned(tilted, pose.up, right)) };
 }
 
 /// By shares of the view's height, in the plane of the view; the distance for `forward`.
@@ -49,7 +63,10 @@ export function moved(pose: Pose, right: number, up: number, forward: number): P
   const axes = axesOf(pose);
   const distance = distanceOf(pose);
   const height = 2 * distance * Math.tan((pose.angleDeg * Math.PI) / 360);
-  const way = add(add(times(axes.right, right * height), times(axes.up, up * height)), times(axes.forward, forward * distance));
+  const way = add(
+    add(times(axes.right, right * height), times(axes.up, up * height)),
+    times(axes.forward, forward * distance),
+  );
   return { ...pose, eye: add(pose.eye, way), target: add(pose.target, way) };
 }
 
@@ -62,7 +79,12 @@ export function zoomed(pose: Pose, factor: number): Pose {
 export function alongRay(pose: Pose, origin: Vec3, direction: Vec3, distance: number, up: Vec3): Pose {
   const forward = unit(direction);
   const straight = lengthOf(cross(unit(up), forward)) < 1e-6;
-  return { ...pose, eye: origin, target: along(origin, forward, distance), up: straight ? squareTo(forward) : unit(up) };
+  return {
+    ...pose,
+    eye: origin,
+    target: along(origin, forward, distance),
+    up: straight ? squareTo(forward) : unit(up),
+  };
 }
 
 /// Looks along the pose's direction, so that all the places are just seen. The aspect is the view's width over its
@@ -70,7 +92,9 @@ export function alongRay(pose: Pose, origin: Vec3, direction: Vec3, distance: nu
 export function framed(pose: Pose, places: readonly Vec3[], aspect: number): Pose {
   const { right, up, forward } = axesOf(pose);
   // The middle of what is seen, not of the box around it.
-  const seen = boxAround(places.map((place): Vec3 => [dot(place, right), dot(place, up), dot(place, forward)]))!;
+  const seen = boxAround(
+    places.map((place): Vec3 => [dot(place, right), dot(place, up), dot(place, forward)]),
+  )!;
   const [x, y, z] = centreOf(seen);
   const target = add(add(times(right, x), times(up, y)), times(forward, z));
   const tangent = Math.tan((pose.angleDeg * Math.PI) / 360);
@@ -84,7 +108,13 @@ export function framed(pose: Pose, places: readonly Vec3[], aspect: number): Pos
 
 /// All the places, seen from beside and above the scene's camera, with a margin.
 export function overview(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3): Pose {
-  const behind: Pose = { eye: times(unit(cameraDirection), -1), target: [0, 0, 0], up: unit(up), angleDeg: 40, orthographic: false };
+  const behind: Pose = {
+    eye: times(unit(cameraDirection), -1),
+    target: [0, 0, 0],
+    up: unit(up),
+    angleDeg: 40,
+    orthographic: false,
+  };
   return zoomed(framed(orbited(behind, 0.7, 0.35), places, 1.3), 0.92);
 }
 

@@ -30,7 +30,8 @@ export function projectorOf(pose: Pose, width: number, height: number): Projecto
       const a = depthOf(from);
       const b = depthOf(to);
       if (a <= near && b <= near) return null;
-      const cut = (inside: Vec3, outside: Vec3, i: number, o: number) => between(inside, outside, (i - near * 1.01) / (i - o));
+      const cut = (inside: Vec3, outside: Vec3, i: number, o: number) =>
+        between(inside, outside, (i - near * 1.01) / (i - o));
       return [seen(a > near ? from : cut(to, from, b, a)), seen(b > near ? to : cut(from, to, a, b))];
     },
   };

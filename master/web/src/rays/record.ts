@@ -1,7 +1,15 @@
 // What is known of a ray, in words.
 import { plain as short } from "../picture/format";
 import type { Vec3 } from "../app/types";
-import { endWords, fateWords, kindWords, type Entry, type LightEntry, type RayEntry, type TracedSample } from "./trace";
+import {
+  endWords,
+  fateWords,
+  kindWords,
+  type Entry,
+  type LightEntry,
+  type RayEntry,
+  type TracedSample,
+} from "./trace";
 import { lengthOf, minus, times } from "./vec";
 
 export interface Field {
@@ -30,7 +38,10 @@ export function nameOf(entry: Entry): string {
 
 export function fieldsOf(entry: Entry, sample: TracedSample): Field[] {
   const [x, y] = sample.film;
-  const where = sample.sample === "centre" ? "centre of the pixel" : `${sample.sample}, film ${short(x, 6)}, ${short(y, 6)}`;
+  const where =
+    sample.sample === "centre"
+      ? "centre of the pixel"
+      : `${sample.sample}, film ${short(x, 6)}, ${short(y, 6)}`;
   switch (entry.what) {
     case "ray":
       return [field("Ray", capital(nameOf(entry))), field("Sample", where), ...ofRay(entry)];
@@ -72,7 +83,11 @@ function ofRay({ ray }: RayEntry): Field[] {
 function ofLight({ ray, light }: LightEntry): Field[] {
   const from = ray.hit!.point;
   const places = light.at
-    ? [field("Origin", numbers(from)), field("Light at", numbers(light.at)), field("Distance", short(lengthOf(minus(light.at, from))))]
+    ? [
+        field("Origin", numbers(from)),
+        field("Light at", numbers(light.at)),
+        field("Distance", short(lengthOf(minus(light.at, from)))),
+      ]
     : [];
   const blocker = light.blocker
     ? [

@@ -67,7 +67,8 @@ export function followScene(): () => void {
     getJson<SceneView>(`/jobs/${job}/scene`, controller.signal).then(
       (view) => (scene.value = view),
       (error: unknown) => {
-        if (!controller.signal.aborted) sceneError.value = error instanceof Error ? error.message : String(error);
+        if (!controller.signal.aborted)
+          sceneError.value = error instanceof Error ? error.message : String(error);
       },
     );
     return () => controller.abort();

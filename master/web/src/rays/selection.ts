@@ -6,7 +6,8 @@ import { entriesOf, type Entry, type RayEntry, type TracedSample } from "./trace
 
 export const entries = computed<Entry[]>(() => (answer.value ? entriesOf(answer.value.trace) : []));
 const byId = computed(() => new Map(entries.value.map((entry) => [entry.id, entry])));
-export const entryOf = (id: string | null): Entry | null => (id === null ? null : (byId.value.get(id) ?? null));
+export const entryOf = (id: string | null): Entry | null =>
+  id === null ? null : (byId.value.get(id) ?? null);
 
 /// Traced rays of all samples, without those to lights.
 export const rayCount = computed(() => entries.value.filter((entry) => entry.what === "ray").length);
@@ -21,7 +22,9 @@ export const select = (id: string | null): void => void (chosen.value = id);
 export const hover = (id: string | null): void => void (pointed.value = id);
 
 /// Whose record is shown: what is pointed at, else chosen, else the first primary ray.
-export const described = computed<Entry | null>(() => hovered.value ?? selected.value ?? entries.value[0] ?? null);
+export const described = computed<Entry | null>(
+  () => hovered.value ?? selected.value ?? entries.value[0] ?? null,
+);
 
 /// The ray of a line, or the one whose hit asks for the light.
 export function rayEntryOf(entry: Entry | null): RayEntry | null {

@@ -32,7 +32,8 @@ export function chartOf(story: CsgStory, hitDistance: number | null): Chart {
   const last = marks.reduce((a, b) => Math.max(a, b), 0) || 1;
   // What comes before the first crossing is left out where it would press the rest together.
   const apart = (last - first) * 0.08;
-  const from = first < Infinity && first > 0.5 * last && !stretches.some((s) => s.in === 0) ? first - apart : 0;
+  const from =
+    first < Infinity && first > 0.5 * last && !stretches.some((s) => s.in === 0) ? first - apart : 0;
   const to = last + (last - from) * 0.08;
 
   const barOf = (s: Stretch): Bar => ({

@@ -20,7 +20,8 @@ export const accent = "#2fb8ff"; // marks what is pointed at
 
 /// Importance in four steps, so that lines of a step are drawn together: 0 is the least.
 export type Step = 0 | 1 | 2 | 3;
-export const stepOf = (importance: number): Step => (importance >= 0.5 ? 3 : importance >= 0.2 ? 2 : importance >= 0.08 ? 1 : 0);
+export const stepOf = (importance: number): Step =>
+  importance >= 0.5 ? 3 : importance >= 0.2 ? 2 : importance >= 0.08 ? 1 : 0;
 export const widthOf: Record<Step, number> = { 0: 0.4, 1: 0.6, 2: 0.8, 3: 1 };
 export const opacityOf: Record<Step, number> = { 0: 0.25, 1: 0.45, 2: 0.7, 3: 1 };
 

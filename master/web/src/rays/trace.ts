@@ -89,7 +89,9 @@ export function entriesOf(trace: PixelTrace): Entry[] {
   const append = (ray: TracedRay, id: string, parent: string | null, level: number, sample: number) => {
     entries.push({ what: "ray", id, parent, level, sample, ray });
     const below = { parent: id, level: level + 1, sample };
-    ray.lights.forEach((light, i) => entries.push({ what: "light", id: `${id}.l${i}`, ...below, ray, light }));
+    ray.lights.forEach((light, i) =>
+      entries.push({ what: "light", id: `${id}.l${i}`, ...below, ray, light }),
+    );
     ray.rays.forEach((next, i) => append(next, `${id}.${i}`, id, level + 1, sample));
     ray.not_traced.forEach((untraced, i) =>
       entries.push({ what: "untraced", id: `${id}.u${i}`, ...below, untraced }),

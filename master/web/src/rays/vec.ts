@@ -65,10 +65,15 @@ export function exitOf(box: Box, origin: Vec3, direction: Vec3): number | null {
 }
 
 // The corners of [0,1]^3 that an edge joins differ in one bit.
-const edges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((a) => [1, 2, 4].filter((bit) => !(a & bit)).flatMap((bit) => [a, a | bit]));
+const edges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((a) =>
+  [1, 2, 4].filter((bit) => !(a & bit)).flatMap((bit) => [a, a | bit]),
+);
 
 /// The twelve edges of a box.
 export function edgesOf({ min, max }: Box): { from: Vec3; to: Vec3 }[] {
   const corner = (bits: number): Vec3 => [0, 1, 2].map((i) => (bits & (1 << i) ? max : min)[i]) as Vec3;
-  return Array.from({ length: 12 }, (_, i) => ({ from: corner(edges[2 * i]!), to: corner(edges[2 * i + 1]!) }));
+  return Array.from({ length: 12 }, (_, i) => ({
+    from: corner(edges[2 * i]!),
+    to: corner(edges[2 * i + 1]!),
+  }));
 }

@@ -57,7 +57,8 @@ export function listenToHands(canvas: HTMLCanvasElement, listener: Listener): ()
   const wheel = (event: WheelEvent) => {
     event.preventDefault();
     // Shift turns the wheel sideways in most browsers.
-    const turns = -(event.deltaY || event.deltaX) / (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 100 : 3);
+    const turns =
+      -(event.deltaY || event.deltaX) / (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 100 : 3);
     jumpBy((from) => zoomed(from, (event.shiftKey ? 1.331 : 1.1) ** Math.max(-3, Math.min(3, turns))));
   };
   const noMenu = (event: Event) => event.preventDefault();

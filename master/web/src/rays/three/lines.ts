@@ -42,7 +42,11 @@ export function linesOf(lines: readonly Line[], pen: Pen): THREE.Group {
   const group = new THREE.Group();
   group.add(
     drawn(geometry, materialOf(pen, { opacity: 0.3 * pen.opacity }, behind), 10),
-    drawn(geometry, materialOf(pen, { color: pen.halo, width: pen.width + 2, opacity: 0.55 * pen.opacity }, {}), 11),
+    drawn(
+      geometry,
+      materialOf(pen, { color: pen.halo, width: pen.width + 2, opacity: 0.55 * pen.opacity }, {}),
+      11,
+    ),
     drawn(geometry, materialOf(pen, {}, {}), 13),
   );
   return group;

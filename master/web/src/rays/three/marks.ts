@@ -55,7 +55,9 @@ export function axes(length: number): THREE.Group {
     const to: Vec3 = [0, 0, 0];
     to[i] = length;
     const color = colors[i]!;
-    group.add(linesOf([{ from: [0, 0, 0], to }], { color, halo: "#000000", dash: null, width: 1.5, opacity: 0.9 }));
+    group.add(
+      linesOf([{ from: [0, 0, 0], to }], { color, halo: "#000000", dash: null, width: 1.5, opacity: 0.9 }),
+    );
     group.add(billboard(to, letterIcon(name, color), 18));
   });
   return group;
@@ -68,7 +70,14 @@ export function dots(points: readonly Vec3[], pixels: number, color: string): TH
   const map = new THREE.CanvasTexture(dotIcon());
   map.colorSpace = THREE.SRGBColorSpace;
   const size = pixels * Math.min(devicePixelRatio, 2);
-  const material = new THREE.PointsMaterial({ map, size, color, sizeAttenuation: false, transparent: true, depthTest: false });
+  const material = new THREE.PointsMaterial({
+    map,
+    size,
+    color,
+    sizeAttenuation: false,
+    transparent: true,
+    depthTest: false,
+  });
   const drawn = new THREE.Points(geometry, material);
   drawn.renderOrder = 15;
   drawn.frustumCulled = false;
@@ -86,7 +95,10 @@ export function cloudPoints(cloud: Cloud): THREE.Points {
   geometry.setAttribute("position", new THREE.BufferAttribute(cloud.positions, 3));
   geometry.setAttribute("color", new THREE.BufferAttribute(cloud.colors, 3, true));
   const size = 2 * Math.min(devicePixelRatio, 2);
-  return new THREE.Points(geometry, new THREE.PointsMaterial({ size, sizeAttenuation: false, vertexColors: true }));
+  return new THREE.Points(
+    geometry,
+    new THREE.PointsMaterial({ size, sizeAttenuation: false, vertexColors: true }),
+  );
 }
 
 export const axesLength = (box: Box): number => 0.35 * lengthOf(minus(box.max, centreOf(box)));

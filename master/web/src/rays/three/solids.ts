@@ -6,7 +6,20 @@ import { along, type Box, centreOf, cross, diagonalOf, edgesOf, minus, times, un
 
 /// Of world_from_local.
 export function matrixOf(rows: readonly number[]): THREE.Matrix4 {
-  const [a, b, c, d, e, f, g, h, i, j, k, l] = rows as [number, number, number, number, number, number, number, number, number, number, number, number];
+  const [a, b, c, d, e, f, g, h, i, j, k, l] = rows as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
   return new THREE.Matrix4(a, b, c, d, e, f, g, h, i, j, k, l, 0, 0, 0, 1);
 }
 
@@ -15,22 +28,41 @@ const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(...v);
 
 /// Where an endless plane is shown: a square of it about the middle of the box.
 function patchOf(solid: SolidView, box: Box): { middle: Vec3; across: Vec3; along: Vec3 } {
-  const m = solid.matrix as [number, number, number, number, number, number, number, number, number, number, number, number];
+  const m = solid.matrix as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
   const u: Vec3 = unit([m[0], m[4], m[8]]);
   const plain: Vec3 = [m[1], m[5], m[9]];
   const normal = unit(cross(u, plain));
   const at: Vec3 = [m[3], m[7], m[11]];
   const from = centreOf(box);
-  const height = normal[0] * (from[0] - at[0]) + normal[1] * (from[1] - at[1]) + normal[2] * (from[2] - at[2]);
+  const height =
+    normal[0] * (from[0] - at[0]) + normal[1] * (from[1] - at[1]) + normal[2] * (from[2] - at[2]);
   const half = 0.6 * diagonalOf(box);
-  return { middle: along(from, normal, -height), across: times(u, half), along: times(cross(normal, u), half) };
+  return {
+    middle: along(from, normal, -height),
+    across: times(u, half),
+    along: times(cross(normal, u), half),
+  };
 }
 
 const cells = 12; // of a plane's grid, each way
 
 function gridOf(solid: SolidView, box: Box): Vec3[] {
   const { middle, across, along: down } = patchOf(solid, box);
-  const at = (i: number, j: number) => along(along(middle, across, (2 * i) / cells - 1), down, (2 * j) / cells - 1);
+  const at = (i: number, j: number) =>
+    along(along(middle, across, (2 * i) / cells - 1), down, (2 * j) / cells - 1);
   return Array.from({ length: cells + 1 }, (_, i) => [at(i, 0), at(i, cells), at(0, i), at(cells, i)]).flat();
 }
 
@@ -39,7 +71,11 @@ export function wireframes(solids: readonly SolidView[], box: Box): THREE.LineSe
   const positions: number[] = [];
   const colors: number[] = [];
   for (const solid of solids) {
-    const points = solid.box ? edgesOf(solid.box).flatMap(({ from, to }) => [from, to]) : solid.kind === "plane" ? gridOf(solid, box) : [];
+    const points = solid.box
+      ? edgesOf(solid.box).flatMap(({ from, to }) => [from, to])
+      : solid.kind === "plane"
+        ? gridOf(solid, box)
+        : [];
     const share = solid.box ? 1 : 0.5;
     for (const p of points) {
       positions.push(...p);
@@ -49,12 +85,20 @@ export function wireframes(solids: readonly SolidView[], box: Box): THREE.LineSe
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
   geometry.setAttribute("color", new THREE.Float32BufferAttribute(colors, 4));
-  return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ vertexColors: true, transparent: true }));
+  return new THREE.LineSegments(
+    geometry,
+    new THREE.LineBasicMaterial({ vertexColors: true, transparent: true }),
+  );
 }
 
 export function filledBoxes(solids: readonly SolidView[]): THREE.Object3D {
   const bounded = solids.filter((solid) => solid.box);
-  const material = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.16, depthWrite: false, side: THREE.DoubleSide });
+  const material = new THREE.MeshBasicMaterial({
+    transparent: true,
+    opacity: 0.16,
+    depthWrite: false,
+    side: THREE.DoubleSide,
+  });
   const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(), material, bounded.length);
   bounded.forEach((solid, i) => {
     const { min, max } = solid.box!;
@@ -88,14 +132,23 @@ function instanceOf(solid: SolidView, box: Box, detail: number): Instance {
     case "cylinder": {
       const [low, high] = limitsOf(solid, world, box);
       const open = solid.parameters.z_min === null && solid.parameters.z_max === null;
-      const make = () => new THREE.CylinderGeometry(1, 1, 1, 2 * detail, 1, open).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+      const make = () =>
+        new THREE.CylinderGeometry(1, 1, 1, 2 * detail, 1, open).rotateX(Math.PI / 2).translate(0, 0, 0.5);
       const stretched = new THREE.Matrix4().makeScale(1, 1, high - low).setPosition(0, 0, low);
       return { shape: open ? "tube" : "cylinder", make, place: world.multiply(stretched) };
     }
     case "plane": {
       const { middle, across, along: down } = patchOf(solid, box);
-      const place = new THREE.Matrix4().makeBasis(vector(across), vector(down), vector(unit(cross(across, down))));
-      return { shape: "plane", make: () => new THREE.PlaneGeometry(2, 2), place: place.setPosition(...middle) };
+      const place = new THREE.Matrix4().makeBasis(
+        vector(across),
+        vector(down),
+        vector(unit(cross(across, down))),
+      );
+      return {
+        shape: "plane",
+        make: () => new THREE.PlaneGeometry(2, 2),
+        place: place.setPosition(...middle),
+      };
     }
   }
 }
@@ -103,7 +156,9 @@ function instanceOf(solid: SolidView, box: Box, detail: number): Instance {
 /// Of a cylinder along its axis; where it is endless, as far as the box.
 function limitsOf(solid: SolidView, world: THREE.Matrix4, box: Box): [number, number] {
   const local = world.clone().invert();
-  const reach = edgesOf(box).flatMap(({ from, to }) => [from, to]).map((corner) => vector(corner).applyMatrix4(local).z);
+  const reach = edgesOf(box)
+    .flatMap(({ from, to }) => [from, to])
+    .map((corner) => vector(corner).applyMatrix4(local).z);
   const { z_min, z_max } = solid.parameters;
   return [z_min ?? Math.min(...reach), z_max ?? Math.max(...reach)];
 }
@@ -112,7 +167,10 @@ const detailOf = (count: number): number => (count > 4000 ? 6 : count > 400 ? 10
 
 /// Each solid by itself: what the set operations take away is still there.
 export function preview(solids: readonly SolidView[], box: Box): THREE.Group {
-  const shapes = new Map<string, { make: Instance["make"]; items: { place: THREE.Matrix4; solid: SolidView }[] }>();
+  const shapes = new Map<
+    string,
+    { make: Instance["make"]; items: { place: THREE.Matrix4; solid: SolidView }[] }
+  >();
   for (const solid of solids) {
     const { shape, make, place } = instanceOf(solid, box, detailOf(solids.length));
     const kept = shapes.get(shape) ?? { make, items: [] };
@@ -121,7 +179,11 @@ export function preview(solids: readonly SolidView[], box: Box): THREE.Group {
   }
   const group = new THREE.Group();
   for (const { make, items } of shapes.values()) {
-    const mesh = new THREE.InstancedMesh(make(), new THREE.MeshLambertMaterial({ side: THREE.DoubleSide }), items.length);
+    const mesh = new THREE.InstancedMesh(
+      make(),
+      new THREE.MeshLambertMaterial({ side: THREE.DoubleSide }),
+      items.length,
+    );
     items.forEach(({ place, solid }, i) => {
       mesh.setMatrixAt(i, place);
       mesh.setColorAt(i, colorOf(solid));

@@ -72,7 +72,9 @@ export class Stage {
   async png(): Promise<Blob> {
     this.draw(0);
     return new Promise((resolve, reject) => {
-      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("The browser could not make a PNG"))));
+      this.canvas.toBlob((blob) =>
+        blob ? resolve(blob) : reject(new Error("The browser could not make a PNG")),
+      );
     });
   }
 

@@ -49,15 +49,41 @@ export function openView(canvas: HTMLCanvasElement, settled: (still: boolean) =>
       if (pose.value) stage.invalidate();
     }),
     inWorld(() => raysOf(segmentsShown.value, importanceAs.value)),
-    inWorld(() => (segmentsShown.value.length > 0 ? dots(hitsShown().map((hit) => hit.point), 7, "#ffffff") : null)),
-    inWorld(() => (shown.normals.value ? normals(hitsShown(), 0.05 * diagonalOf(box.value)) : null)),
-    inWorld(() => glowOf(allSegments.value.filter((s) => s.entry === selected.value?.id), 9, 0.55)),
-    inWorld(() => glowOf(allSegments.value.filter((s) => s.entry === hovered.value?.id), 11, 0.8)),
-    inWorld(() => (scene.value && shown.boxes.value ? wireframes(scene.value.solids, boxOf(scene.value)) : null)),
     inWorld(() =>
-      scene.value && shown.boxes.value && boxStyle.value === "filled" ? filledBoxes(scene.value.solids) : null,
+      segmentsShown.value.length > 0
+        ? dots(
+            hitsShown().map((hit) => hit.point),
+            7,
+            "#ffffff",
+          )
+        : null,
     ),
-    inWorld(() => (scene.value && shown.preview.value ? preview(scene.value.solids, boxOf(scene.value)) : null)),
+    inWorld(() => (shown.normals.value ? normals(hitsShown(), 0.05 * diagonalOf(box.value)) : null)),
+    inWorld(() =>
+      glowOf(
+        allSegments.value.filter((s) => s.entry === selected.value?.id),
+        9,
+        0.55,
+      ),
+    ),
+    inWorld(() =>
+      glowOf(
+        allSegments.value.filter((s) => s.entry === hovered.value?.id),
+        11,
+        0.8,
+      ),
+    ),
+    inWorld(() =>
+      scene.value && shown.boxes.value ? wireframes(scene.value.solids, boxOf(scene.value)) : null,
+    ),
+    inWorld(() =>
+      scene.value && shown.boxes.value && boxStyle.value === "filled"
+        ? filledBoxes(scene.value.solids)
+        : null,
+    ),
+    inWorld(() =>
+      scene.value && shown.preview.value ? preview(scene.value.solids, boxOf(scene.value)) : null,
+    ),
     inWorld(() => (scene.value && shown.icons.value ? icons(scene.value) : null)),
     inWorld(() => (scene.value && shown.axes.value ? axes(axesLength(boxOf(scene.value))) : null)),
     inWorld(() => (spanMark.value ? dots(spanMark.value.points, 13, "#2fb8ff") : null)),
@@ -82,7 +108,9 @@ export function openView(canvas: HTMLCanvasElement, settled: (still: boolean) =>
 /// Of the rays that are shown.
 function hitsShown() {
   const drawn = new Set(segmentsShown.value.map((segment) => segment.entry));
-  return entries.value.flatMap((entry) => (entry.what === "ray" && entry.ray.hit && drawn.has(entry.id) ? [entry.ray.hit] : []));
+  return entries.value.flatMap((entry) =>
+    entry.what === "ray" && entry.ray.hit && drawn.has(entry.id) ? [entry.ray.hit] : [],
+  );
 }
 
 /// The edges of the box of the leaf that the chart points at.
