@@ -7,7 +7,7 @@ export interface Place {
   takesArrows: boolean; // a slider, a choice: arrows are for it
   takesPress: boolean; // a button, a link: Enter and Space are for it
   dialog: boolean; // a dialog is open: keys are for it alone
-  freeTab: boolean; // the pointer was used last, and not on a control: Tab need not move the focus
+  freeTab: boolean; // the pointer was last used on the picture or the rays: Tab need not move the focus
 }
 
 /// The action that a key means there, if any.
@@ -25,7 +25,7 @@ export function actionFor(key: string, place: Place, all: readonly Action[]): Ac
   );
 }
 
-let pointerWasLast = false;
+let pointerWasLast = false; // and on the picture or the rays
 
 function placeOf(focus: Element | null): Place {
   const scope = focus?.closest<HTMLElement>("[data-scope]")?.dataset.scope ?? null;
@@ -46,7 +46,14 @@ function placeOf(focus: Element | null): Place {
 }
 
 export function startKeys(): void {
-  addEventListener("pointerdown", () => (pointerWasLast = true), true);
+  addEventListener(
+    "pointerdown",
+    ({ target }) => {
+      pointerWasLast =
+        target instanceof Element && target.closest("[data-scope=picture], [data-scope=rays]") !== null;
+    },
+    true,
+  );
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.isComposing) return;
     const action = actionFor(keyOf(event), placeOf(document.activeElement), actions.value);

@@ -29,7 +29,7 @@ function Details({ job }: { job: Job }) {
       {why && <p>{why}</p>}
       <Progress job={job} />
       <Settings job={job} />
-      <Parameters parameters={job.parameters ?? {}} />
+      <Parameters parameters={job.parameters} />
       <CounterList counters={job.counters} />
     </section>
   );
@@ -151,20 +151,16 @@ const rays: [keyof Counters, string][] = [
   ["reflected", "Reflected"],
   ["refracted", "Refracted"],
   ["shadow", "Shadow rays"],
-  ["misses", "Misses"],
 ];
 
 function CounterList({ counters }: { counters: Counters }) {
   return (
     <dl>
-      {rays.map(
-        ([key, name]) =>
-          counters[key] !== undefined && (
-            <Row key={key} name={name}>
-              {count(counters[key])}
-            </Row>
-          ),
-      )}
+      {rays.map(([key, name]) => (
+        <Row key={key} name={name}>
+          {count(counters[key])}
+        </Row>
+      ))}
       {counters.lost > 0 && (
         <Row name="Lost rays">
           <span class="warn">{count(counters.lost)}</span>

@@ -143,7 +143,8 @@ function Nothing() {
   if (link.value !== "open") return null;
   return (
     <p class="quiet">
-      No jobs yet. <a href="#/submit">Submit the first</a>, or <code>rayfarm submit scene.lua -o picture.png</code>.
+      No jobs yet. <a href="#/submit">Submit the first</a>, or{" "}
+      <code>rayfarm submit scene.lua -o picture.png</code>.
     </p>
   );
 }
