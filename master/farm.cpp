@@ -21,6 +21,11 @@ JobId same_job(const Job& job, const JobSpec& wanted) {
   return job.id;
 }
 
+std::string words_for_banned(std::string_view name) {
+  return "worker " + std::string(name) + " is banned from this farm; rayfarm unban " + std::string(name) +
+         " lets it in again";
+}
+
 }  // namespace
 
 std::string_view name_of(JobState state) { return job_state_names.at(static_cast<std::size_t>(state)); }
@@ -46,7 +51,7 @@ WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   worker.info = std::move(info);
   worker.send = std::move(send);
   worker.joined = now;
-  state_->tell(worker.is_drained ? joined + "; it is drained" : joined);
+  state_->tell(worker.is_drained ? joined + "; it is drained" : joined, worker.info.name);
   worker.send(Welcome{worker.info.name});
   state_->fill(worker, now);
   return id;
@@ -58,9 +63,9 @@ void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
   const std::string what =
       ": " + reason + (given_back == 0 ? "" : "; " + count_of_tiles(given_back) + " given back");
   if (worker.is_stopping)
-    state_->tell("worker " + worker.info.name + " left" + what);
+    state_->tell("worker " + worker.info.name + " left" + what, worker.info.name);
   else
-    state_->warn("worker " + worker.info.name + " lost" + what);
+    state_->warn("worker " + worker.info.name + " lost" + what, worker.info.name);
   state_->workers.erase(id);
   state_->fill_all(now);
 }
@@ -72,7 +77,8 @@ bool Farm::drain(std::string_view name, FarmTime now) {
   worker->is_drained = true;
   state_->drained_names.insert(worker->info.name);
   std::vector<LeaseId> leases = state_->end_leases(*worker);
-  state_->tell("worker " + worker->info.name + " drained; " + count_of_tiles(leases.size()) + " given back");
+  state_->tell("worker " + worker->info.name + " drained; " + count_of_tiles(leases.size()) + " given back",
+               worker->info.name);
   if (!leases.empty()) worker->send(Revoke{std::move(leases)});
   state_->fill_all(now);
   return true;
@@ -82,12 +88,40 @@ bool Farm::undrain(std::string_view name, FarmTime now) {
   Worker* worker = state_->worker_named(name);
   const auto drained = state_->drained_names.find(name);
   if (drained == state_->drained_names.end()) return worker != nullptr;
-  state_->tell("worker " + *drained + " no longer drained");
+  state_->tell("worker " + *drained + " no longer drained", *drained);
   state_->drained_names.erase(drained);
   if (worker == nullptr) return true;
   worker->is_drained = false;
   state_->fill(*worker, now);
   return true;
+}
+
+bool Farm::ban(std::string_view name, FarmTime now) {
+  Worker* worker = state_->worker_named(name);
+  const auto was_here = state_->name_ids.find(std::string(name));
+  if (was_here == state_->name_ids.end() || (worker && worker->info.kind == WorkerKind::local)) return false;
+  const bool is_new = state_->banned_names.insert(was_here->first).second;
+  if (is_new) state_->tell("worker " + was_here->first + " banned", was_here->first);
+  if (!worker) return true;
+  state_->end_leases(*worker);
+  worker->is_stopping = true;
+  worker->send(Refused{words_for_banned(name)});
+  state_->fill_all(now);
+  return true;
+}
+
+bool Farm::unban(std::string_view name, FarmTime) {
+  const auto banned = state_->banned_names.find(name);
+  if (banned == state_->banned_names.end()) return state_->worker_named(name) != nullptr;
+  state_->tell("worker " + *banned + " no longer banned", *banned);
+  state_->banned_names.erase(banned);
+  return true;
+}
+
+std::optional<std::string> Farm::objection_to(const std::string& wanted_name) const {
+  const std::string name = state_->unique_name(wanted_name);
+  if (!state_->banned_names.contains(name)) return std::nullopt;
+  return words_for_banned(name);
 }
 
 // Jobs. ----------------------------------------------------------------------------------
@@ -182,6 +216,10 @@ std::vector<WorkerView> Farm::workers() const {
   views.reserve(state_->workers.size());
   for (const auto& [id, worker] : state_->workers) views.push_back(view_of(worker));
   return views;
+}
+
+std::vector<std::string> Farm::banned() const {
+  return {state_->banned_names.begin(), state_->banned_names.end()};
 }
 
 std::string Farm::name_of_worker(WorkerId id) const {

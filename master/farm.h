@@ -19,6 +19,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -56,6 +57,7 @@ struct JobSpec {
   int priority = 50;  // 0..99, higher first; equals in order of submission
   bool hold = false;  // starts paused
   std::string key;    // submit --id: the same key gives the same job again until that fails; empty: none
+  std::map<std::string, std::string> parameters;  // that its script was given, as far as the submitter says
 };
 
 /// What of ended jobs is kept; those that ended first go first. A job that loses its film loses its scene and
@@ -75,6 +77,7 @@ struct JobView {
   JobState state = JobState::waiting;
   int priority = 0;
   RenderSettings settings;
+  std::map<std::string, std::string> parameters;
   std::uint64_t pixels_done = 0, pixels_total = 0;
   RayCounters counters;                // of committed passes
   FarmTime submitted{}, waited{};      // waited: from then to the first assignment, or to its end without one
@@ -113,6 +116,7 @@ struct WorkerView {
 struct FarmEvent {
   bool warning = false;
   std::string text;
+  std::string worker;  // that it is about; empty: none, or several
 };
 
 /// A worker broke the rules of the conversation; the message says how. End its connection and pass the
@@ -159,10 +163,17 @@ class Farm {
   // no such worker; undrain also knows drained workers that are away.
   bool drain(std::string_view name, FarmTime now);
   bool undrain(std::string_view name, FarmTime now);
+  // A banned worker is refused, its connection ends and what it holds is given to others. A name that never
+  // was here is none; the master's own threads are not banned.
+  bool ban(std::string_view name, FarmTime now);
+  bool unban(std::string_view name, FarmTime now);
+  /// Why a worker that wants this name must not be added; nothing when it may.
+  std::optional<std::string> objection_to(const std::string& wanted_name) const;
 
   std::vector<JobView> jobs(FarmTime now) const;  // in order of submission
   std::optional<JobView> job(JobId id, FarmTime now) const;
   std::vector<WorkerView> workers() const;        // in order of joining
+  std::vector<std::string> banned() const;        // names
   std::string name_of_worker(WorkerId id) const;  // empty: not here
   /// The film of a job; null when there is no such job, nothing of it was assigned yet, or it is no longer
   /// kept. Grows while the job runs.

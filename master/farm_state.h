@@ -26,7 +26,7 @@ struct Farm::State {
   };
   std::map<std::string, SharedScene> scenes;  // by hash
   std::map<WorkerId, Worker> workers;
-  std::set<std::string, std::less<>> drained_names;
+  std::set<std::string, std::less<>> drained_names, banned_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those too many.
   std::vector<std::string> names{"(one of many)"};
   std::map<std::string, NameId> name_ids;
@@ -36,8 +36,12 @@ struct Farm::State {
   std::uint64_t revision = 0;
   std::vector<FarmEvent> events;
 
-  void tell(std::string text) { events.push_back({false, std::move(text)}); }
-  void warn(std::string text) { events.push_back({true, std::move(text)}); }
+  void tell(std::string text, std::string worker = "") {
+    events.push_back({false, std::move(text), std::move(worker)});
+  }
+  void warn(std::string text, std::string worker = "") {
+    events.push_back({true, std::move(text), std::move(worker)});
+  }
 
   Job* living_job(JobId id);
   Worker* worker_named(std::string_view name);

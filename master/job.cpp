@@ -48,7 +48,7 @@ JobView view_of(const Job& job, FarmTime now) {
   view.message = job.message;
   view.state = job.state;
   view.priority = spec.priority;
-  view.settings = spec.settings;
+  view.settings = spec.settings, view.parameters = spec.parameters;
   view.pixels_done = job.pixels_done;
   view.pixels_total = std::uint64_t{spec.settings.width} * spec.settings.height;
   view.counters = job.counters;

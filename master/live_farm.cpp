@@ -6,9 +6,13 @@ namespace rayfarm {
 
 FarmTime LiveFarm::now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
+void LiveFarm::note(FarmEvent event) {
+  spdlog::log(event.warning ? spdlog::level::warn : spdlog::level::info, "{}", event.text);
+  log_.add(std::move(event), now());
+}
+
 LiveFarm::LogAtEnd::~LogAtEnd() {
-  for (const FarmEvent& event : farm.take_events())
-    spdlog::log(event.warning ? spdlog::level::warn : spdlog::level::info, "{}", event.text);
+  for (FarmEvent& event : live.farm_.take_events()) live.note(std::move(event));
 }
 
 }  // namespace rayfarm

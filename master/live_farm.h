@@ -2,6 +2,7 @@
 #pragma once
 #include <type_traits>
 
+#include "master/event_log.h"
 #include "master/farm.h"
 
 namespace rayfarm {
@@ -12,18 +13,23 @@ class LiveFarm {
   /// What call(farm, now) gives. What happened in the farm goes to the log.
   template <class Call>
   std::invoke_result_t<Call, Farm&, FarmTime> apply(Call&& call) {
-    const LogAtEnd log{farm_};
+    const LogAtEnd log{*this};
     return call(farm_, now());
   }
 
+  /// What happened beside the farm.
+  void note(FarmEvent event);
+  const EventLog& log() const { return log_; }
+
  private:
   struct LogAtEnd {
-    Farm& farm;
+    LiveFarm& live;
     ~LogAtEnd();
   };
   static FarmTime now();
 
   Farm farm_;
+  EventLog log_;
 };
 
 }  // namespace rayfarm

@@ -11,6 +11,7 @@
 #include "common/daemon/stop_signals.h"
 #include "common/daemon/system.h"
 #include "common/net/run_until_end.h"
+#include "master/diagnostics/diagnostics.h"
 #include "master/http/server.h"
 #include "master/local_threads.h"
 #include "master/sessions.h"
@@ -77,8 +78,15 @@ void serve(const Arguments& arguments) {
   FarmDoor door([&](std::function<void(Farm&, FarmTime)> question) {
     asio::post(io, [&farm, question = std::move(question)] { farm.apply(question); });
   });
+  Diagnostics diagnostics(std::max(1u, std::thread::hardware_concurrency()));
+  const MasterDoor master{
+      [&](const std::string& target) { sessions.dial(parse_dial_target(target)); },
+      [&] { return sessions.dialling(); },
+      [&](std::uint64_t after) { return farm.log().after(after); },
+  };
   const AppFiles app;
-  const HttpServer http({arguments.http, arguments.insecure}, {.farm = door, .app = app});
+  const HttpServer http({arguments.http, arguments.insecure},
+                        {.farm = door, .diagnostics = diagnostics, .master = master, .app = app});
   std::optional<LocalThreads> local;
   if (arguments.threads > 0) local.emplace(io, farm, arguments.threads);
   dial_all(sessions, arguments.dial);

@@ -96,7 +96,8 @@ void Farm::receive(WorkerId id, GiveBack given, FarmTime now) {
   for (const auto& [job_id, count] : tiles) {
     Job& job = state_->jobs.at(job_id);
     state_->tell("worker " + worker.info.name + " gave back " + count_of_tiles(count) + " of " +
-                 title_of(job) + ": " + (is_refusal ? given.reason : "it is stopping"));
+                 title_of(job) + ": " + (is_refusal ? given.reason : "it is stopping"),
+                 worker.info.name);
     if (is_refusal) state_->refuse(worker, job, given.reason, now);
   }
   state_->fill_all(now);

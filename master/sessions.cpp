@@ -1,7 +1,6 @@
 #include "master/sessions.h"
 
-#include <spdlog/spdlog.h>
-
+#include <algorithm>
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
 #include <asio/redirect_error.hpp>
@@ -44,9 +43,14 @@ DialTarget parse_dial_target(std::string_view text) {
 
 struct Sessions::Session {
   WorkerConnection connection;
-  std::string name;                // if we dialled it
+  const Dialled* dialled;          // null: it came by itself
   std::optional<WorkerId> worker;  // once it is admitted
   std::string farewell;            // what it said when it went
+};
+
+struct Sessions::Dialled {
+  DialTarget target;
+  std::string fault;  // of the last try
 };
 
 Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Exposure exposure,
@@ -58,6 +62,8 @@ Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, 
       acceptor_(listen_at(io, listen, exposure)),
       listening_at_{acceptor_.local_endpoint().address().to_string(), acceptor_.local_endpoint().port()},
       ended_(io, std::chrono::steady_clock::time_point::max()) {}
+
+Sessions::~Sessions() = default;
 
 asio::awaitable<void> Sessions::run() { return until_first_ends(accept_all(), wait_until_stopped()); }
 
@@ -89,41 +95,61 @@ asio::awaitable<void> Sessions::accept_all() {
 asio::awaitable<void> Sessions::serve_stranger(tcp::socket socket) {
   asio::error_code unknown;
   const tcp::endpoint peer = socket.remote_endpoint(unknown);
-  auto serving = serve(std::move(socket), "");
+  auto serving = serve(std::move(socket), nullptr);
   const std::string fault = co_await std::move(serving);
-  if (!fault.empty()) spdlog::warn("no worker at {}: {}", peer.address().to_string(), fault);
+  if (fault.empty()) co_return;
+  std::string line = "no worker at " + peer.address().to_string() + ": " + fault;
+  if (line == last_stranger_) co_return;
+  last_stranger_ = line;
+  farm_.note({true, std::move(line), ""});
 }
 
 void Sessions::dial(DialTarget target) {
-  asio::co_spawn(io_, keep_dialled(std::move(target)), asio::detached);
+  const auto is_same = [&](const Dialled& d) {
+    return d.target.name == target.name && d.target.address == target.address;
+  };
+  if (std::ranges::any_of(dialled_, is_same)) return;
+  Dialled& dialled = dialled_.emplace_back();
+  dialled.target = std::move(target);
+  asio::co_spawn(io_, keep_dialled(dialled), asio::detached);
 }
 
-asio::awaitable<void> Sessions::keep_dialled(DialTarget target) {
+std::vector<Dialling> Sessions::dialling() const {
+  std::vector<Dialling> all;
+  for (const Dialled& dialled : dialled_) {
+    const auto is_reached = [&](const Session* s) { return s->dialled == &dialled && s->worker; };
+    if (std::ranges::any_of(sessions_, is_reached)) continue;
+    all.push_back({dialled.target.name, text_of(dialled.target.address), dialled.fault});
+  }
+  return all;
+}
+
+asio::awaitable<void> Sessions::keep_dialled(Dialled& dialled) {
   Backoff backoff(times_.backoff, std::random_device{}());
   asio::steady_timer timer(io_);
-  std::string last_fault;
   while (!stopping_) {
     const auto begun = std::chrono::steady_clock::now();
-    auto attempt = try_target(target);
+    auto attempt = try_target(dialled);
     const std::string fault = co_await std::move(attempt);
     // One that ends sooner is no success: a worker that lies at once is not dialled without pause.
     const bool lasted = std::chrono::steady_clock::now() - begun > times_.backoff.longest;
     if (fault.empty() && lasted) backoff.reset();
-    if (!fault.empty() && fault != last_fault)
-      spdlog::warn("worker \"{}\": {}; trying again", target.name, fault);
-    last_fault = fault;
+    const std::string& name = dialled.target.name;
+    if (!fault.empty() && fault != dialled.fault)
+      farm_.note({true, "worker \"" + name + "\": " + fault + "; trying again", name});
+    dialled.fault = fault;
     timer.expires_after(backoff.next());
     co_await timer.async_wait(asio::use_awaitable);
   }
 }
 
 /// Why there was no worker; empty after one that there was has gone.
-asio::awaitable<std::string> Sessions::try_target(DialTarget target) {
+asio::awaitable<std::string> Sessions::try_target(const Dialled& dialled) {
   std::string fault;
   try {
-    auto dialling = rayfarm::dial(target.address, exposure_, times_.connection.handshake);
+    auto dialling = rayfarm::dial(dialled.target.address, exposure_, times_.connection.handshake);
     tcp::socket socket = co_await std::move(dialling);
-    auto serving = serve(std::move(socket), target.name);
+    auto serving = serve(std::move(socket), &dialled);
     fault = co_await std::move(serving);
   } catch (const AddressError& error) {
     fault = error.what();
@@ -136,9 +162,9 @@ asio::awaitable<std::string> Sessions::try_target(DialTarget target) {
 // A conversation. ------------------------------------------------------------------------------------------
 
 /// Why the peer was not admitted; empty after the conversation with one that was.
-asio::awaitable<std::string> Sessions::serve(tcp::socket socket, std::string name) {
+asio::awaitable<std::string> Sessions::serve(tcp::socket socket, const Dialled* dialled) {
   if (stopping_) co_return "the master stops";
-  Session session{{std::move(socket), times_.connection}, std::move(name), {}, {}};
+  Session session{{std::move(socket), times_.connection}, dialled, {}, {}};
   sessions_.insert(&session);
   std::string reason;
   try {
@@ -192,13 +218,15 @@ void Sessions::refuse(Session& session, const std::string& objection) {
 }
 
 void Sessions::admit(Session& session, const Hello& hello) {
-  const WorkerInfo info{session.name.empty() ? hello.name : session.name,
-                        session.connection.peer(),
-                        hello.cpu,
-                        hello.version,
-                        hello.threads,
-                        WorkerKind::remote};
-  const auto send = [&connection = session.connection](const ToWorker& message) { connection.post(message); };
+  const std::string& name = session.dialled ? session.dialled->target.name : hello.name;
+  const auto objection = farm_.apply([&](Farm& farm, FarmTime) { return farm.objection_to(name); });
+  if (objection) return refuse(session, *objection);
+  const WorkerInfo info{name,          session.connection.peer(), hello.cpu, hello.version,
+                        hello.threads, WorkerKind::remote};
+  const auto send = [&session, this](const ToWorker& message) {
+    if (const auto* refused = std::get_if<Refused>(&message)) return refuse(session, refused->reason);
+    session.connection.post(message);
+  };
   session.worker = farm_.apply([&](Farm& farm, FarmTime now) { return farm.add_worker(info, send, now); });
 }
 

@@ -1,6 +1,7 @@
 // The master's door for workers: listens, dials, and translates between connections and the farm.
 #pragma once
 #include <asio/io_context.hpp>
+#include <list>
 #include <optional>
 #include <random>
 #include <set>
@@ -9,6 +10,7 @@
 #include "common/net/backoff.h"
 #include "common/net/connection.h"
 #include "common/net/dial.h"
+#include "master/dialling.h"
 #include "master/live_farm.h"
 
 namespace rayfarm {
@@ -32,10 +34,13 @@ class Sessions {
   /// Listens from now on; throws AddressError when it cannot.
   Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Exposure exposure,
            DoorTimes times = {});
+  ~Sessions();
 
   const Address& listening_at() const { return listening_at_; }
   /// Dials, and again whenever the worker is lost. Why it cannot be reached is logged, once for each reason.
   void dial(DialTarget target);
+  /// Those that are dialled and not reached just now.
+  std::vector<Dialling> dialling() const;
   /// Takes workers in. Returns after stop(), once all are gone.
   asio::awaitable<void> run();
   /// Says goodbye to all.
@@ -43,12 +48,13 @@ class Sessions {
 
  private:
   struct Session;
+  struct Dialled;
 
   asio::awaitable<void> accept_all();
-  asio::awaitable<void> keep_dialled(DialTarget target);
-  asio::awaitable<std::string> try_target(DialTarget target);
+  asio::awaitable<void> keep_dialled(Dialled& dialled);
+  asio::awaitable<std::string> try_target(const Dialled& dialled);
   asio::awaitable<void> serve_stranger(asio::ip::tcp::socket socket);
-  asio::awaitable<std::string> serve(asio::ip::tcp::socket socket, std::string name);
+  asio::awaitable<std::string> serve(asio::ip::tcp::socket socket, const Dialled* dialled);
   asio::awaitable<void> converse(Session& session);
   void open(Session& session, const ToMaster& first);
   void admit(Session& session, const Hello& hello);
@@ -62,7 +68,9 @@ class Sessions {
   asio::ip::tcp::acceptor acceptor_;
   Address listening_at_;
   std::set<Session*> sessions_;
-  asio::steady_timer ended_;  // never expires: cancelled when a session ends, or all shall
+  std::list<Dialled> dialled_;
+  std::string last_stranger_;  // as the log has it: one that comes again and again is told of once
+  asio::steady_timer ended_;   // never expires: cancelled when a session ends, or all shall
   bool stopping_ = false;
 };
 

@@ -21,6 +21,7 @@ struct LayerState {
   std::string message;                         // why it failed
   std::optional<std::array<double, 2>> range;  // least and greatest finite value so far
   std::vector<std::string> labels;             // for the values 0, 1, ... of a map of names
+  bool operator==(const LayerState&) const = default;
 };
 
 struct TileNews {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
+#include "common/net/address.h"
 #include "common/net/codec.h"
 #include "master/http/request_target.h"
 #include "master/http/submission.h"
@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint64_t longest_wait = 30;  // seconds; proxies and browsers lose patience at 60
 
-std::array<std::span<const Route>, 4> all_tables() {
-  return {job_routes(), picture_routes(), worker_routes(), page_routes()};
+std::array<std::span<const Route>, 6> all_tables() {
+  return {job_routes(), picture_routes(), map_routes(), diagnostics_routes(), worker_routes(), page_routes()};
 }
 
 /// What stands for the {} of the pattern, if the path has its form.
@@ -69,17 +69,6 @@ ApiResponse routed(const ApiRequest& request, const Doors& doors) {
   throw ApiError(404, "there is nothing at " + request.target);
 }
 
-std::uint64_t number_in(const std::string& text) {
-  std::uint64_t number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
-std::uint64_t number_in(const RequestTarget& target, const std::string& name) {
-  const auto found = target.query.find(name);
-  return found == target.query.end() ? 0 : number_in(found->second);
-}
-
 }  // namespace
 
 Work work_of(const ApiRequest& request) {
@@ -101,7 +90,8 @@ std::vector<ApiRoute> api_routes() {
 
 std::chrono::seconds patience_of(const ApiRequest& request) {
   try {
-    return std::chrono::seconds(std::min(number_in(parse_target(request.target), "wait"), longest_wait));
+    return std::chrono::seconds(
+        std::min(number_in(parse_target(request.target).query, "wait"), longest_wait));
   } catch (const std::invalid_argument&) {
     return std::chrono::seconds(0);  // answer() will say what is wrong
   }
@@ -113,8 +103,8 @@ std::optional<NewsWait> news_wait(const ApiRequest& request) {
   if (longest.count() == 0) return std::nullopt;
   const RequestTarget target = parse_target(request.target);
   if (target.path.size() > 4) return std::nullopt;
-  NewsWait wait{number_in(target, "after"), longest, std::nullopt};
-  if (target.path.size() == 4) wait.job = JobId{number_in(target.path[3])};
+  NewsWait wait{number_in(target.query, "after"), longest, std::nullopt};
+  if (target.path.size() == 4) wait.job = JobId{number_in({{"id", target.path[3]}}, "id")};
   return wait;
 }
 
@@ -129,6 +119,8 @@ ApiResponse answer(const ApiRequest& request, const Doors& doors) {
     return error_response(400, error.what());
   } catch (const KeyTaken& error) {
     return error_response(409, error.what());
+  } catch (const AddressError& error) {
+    return error_response(422, error.what());
   } catch (const SettingsError& error) {
     return error_response(422, error.what());
   } catch (const SceneError& error) {

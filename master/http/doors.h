@@ -1,13 +1,32 @@
 // What the handlers of HTTP requests may ask, from any thread.
 #pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "master/dialling.h"
+#include "master/event_log.h"
 #include "master/http/app_files.h"
 #include "master/http/farm_door.h"
 
 namespace rayfarm {
 
+class Diagnostics;
+
+/// What of the master is not the farm's. All are called on the farm's thread.
+struct MasterDoor {
+  /// NAME=HOST[:PORT], from now on. Throws AddressError.
+  std::function<void(const std::string& target)> dial;
+  std::function<std::vector<Dialling>()> dialling;
+  /// The lines of the log after this number.
+  std::function<std::vector<LogLine>(std::uint64_t after)> log;
+};
+
 /// All of it outlives the server.
 struct Doors {
   FarmDoor& farm;
+  Diagnostics& diagnostics;
+  const MasterDoor& master;
   const AppFiles& app;
 };
 

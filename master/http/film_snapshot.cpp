@@ -11,12 +11,8 @@ namespace {
 
 constexpr std::uint32_t tiles_at_once = 256;  // 12 MB: some milliseconds
 
-std::shared_ptr<const Film> film_now(Farm& farm, JobId id, FarmTime now) {
-  const std::optional<JobView> job = farm.job(id, now);
-  if (!job) throw no_such_job(id);
-  std::shared_ptr<const Film> film = farm.film(id);
-  if (!film && job->pixels_done > 0)
-    throw ApiError(410, "the picture of " + text_of(id) + " is no longer kept; submit it again");
+std::shared_ptr<const Film> film_now(const Farm& farm, JobId id, FarmTime now) {
+  std::shared_ptr<const Film> film = film_so_far(farm, id, now);
   if (!film) throw ApiError(409, "nothing of " + text_of(id) + " is rendered yet");
   return film;
 }
@@ -51,6 +47,15 @@ const float* filled_pixel(const Film& film, std::uint32_t x, std::uint32_t y) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Film> film_so_far(const Farm& farm, JobId id, FarmTime now) {
+  const std::optional<JobView> job = farm.job(id, now);
+  if (!job) throw no_such_job(id);
+  std::shared_ptr<const Film> film = farm.film(id);
+  if (!film && job->pixels_done > 0)
+    throw ApiError(410, "the picture of " + text_of(id) + " is no longer kept; submit it again");
+  return film;
+}
 
 std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id) {
   struct First {

@@ -7,6 +7,10 @@
 
 namespace rayfarm {
 
+/// On the farm's thread: null while nothing is rendered. Throws ApiError when there is no such job or its
+/// film is no longer kept.
+std::shared_ptr<const Film> film_so_far(const Farm& farm, JobId id, FarmTime now);
+
 /// A film that no longer changes: a complete one is shared, a growing one copied a few milliseconds of the
 /// farm's thread at a time, so that workers are not kept waiting by a look at a huge picture. Each tile is as
 /// it was at some moment of the copying. Throws ApiError when there is none.

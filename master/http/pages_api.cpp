@@ -13,9 +13,14 @@ ApiResponse show_version(const Call&) {
 
 ApiResponse show_openapi(const Call&) { return {200, "application/json", Body::lasting(openapi_json)}; }
 
+ApiResponse refuse_plain_live(const Call&) {
+  return error_response(426, "this is a WebSocket: ask for the upgrade");
+}
+
 constexpr Route routes[]{
     {"GET", "/api/v1/version", show_version},
     {"GET", "/api/v1/openapi.json", show_openapi},
+    {"GET", "/api/v1/live", refuse_plain_live},
 };
 
 }  // namespace

@@ -20,6 +20,14 @@ JobId job_id(const Call& call) {
   return JobId{id};
 }
 
+std::uint64_t number_in(const std::map<std::string, std::string>& query, const std::string& name) {
+  const auto found = query.find(name);
+  std::uint64_t number = 0;
+  if (found == query.end()) return number;
+  std::from_chars(found->second.data(), found->second.data() + found->second.size(), number);
+  return number;
+}
+
 nlohmann::json body_of(const Call& call) {
   if (call.request.body.empty()) return nlohmann::json::object();
   return parse_json(call.request.body);

@@ -45,6 +45,8 @@ struct Route {
 
 std::span<const Route> job_routes();
 std::span<const Route> picture_routes();
+std::span<const Route> map_routes();
+std::span<const Route> diagnostics_routes();
 std::span<const Route> worker_routes();
 std::span<const Route> page_routes();
 
@@ -53,6 +55,8 @@ std::span<const Route> page_routes();
 ApiResponse shown(const nlohmann::json& value);
 /// The job in the path. Throws ApiError.
 JobId job_id(const Call& call);
+/// A whole number in the query; 0 when it is not there or none.
+std::uint64_t number_in(const std::map<std::string, std::string>& query, const std::string& name);
 /// The members of a command's body; an empty body has none. Throws ApiError.
 nlohmann::json body_of(const Call& call);
 

@@ -14,11 +14,13 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
 #include <charconv>
 #include <thread>
 
 #include "master/http/api.h"
 #include "master/http/guard.h"
+#include "master/http/live_session.h"
 #include "master/http/submission.h"
 
 namespace rayfarm {
@@ -107,6 +109,10 @@ Response http_response(const ApiResponse& answer, const RequestParser::value_typ
   return response;
 }
 
+bool is_live(const RequestParser::value_type& request) {
+  return beast::websocket::is_upgrade(request) && request.target() == live_path;
+}
+
 /// Some of the memory that all bodies share, until it is let go.
 class BodyShare {
  public:
@@ -135,11 +141,17 @@ std::optional<ApiResponse> complaint(const boost::system::error_code& error) {
   return std::nullopt;
 }
 
+/// What follows an answer; nothing: the connection is no longer ours.
+enum class Then : std::uint8_t { next_request, farewell, nothing };
+
 }  // namespace
 
 struct HttpServer::Parts {
   Parts(const HttpSettings& settings, const Doors& doors)
-      : settings(settings), doors(doors), acceptor(acceptor_at(io, settings)) {
+      : settings(settings),
+        doors(doors),
+        live(io, doors, settings.viewer_patience),
+        acceptor(acceptor_at(io, settings)) {
     const asio::ip::address address = acceptor.local_endpoint().address();
     listening = {address.to_string(), address.is_loopback(), pc_name()};
   }
@@ -147,8 +159,8 @@ struct HttpServer::Parts {
   asio::awaitable<void> accept_all();
   asio::awaitable<void> session(beast::tcp_stream stream);
   asio::awaitable<void> see_off(beast::tcp_stream& stream);
-  asio::awaitable<bool> converse(beast::tcp_stream& stream, beast::flat_buffer& buffer);
-  asio::awaitable<bool> reply(beast::tcp_stream& stream, ApiResponse answer,
+  asio::awaitable<Then> converse(beast::tcp_stream& stream, beast::flat_buffer& buffer);
+  asio::awaitable<Then> reply(beast::tcp_stream& stream, ApiResponse answer,
                               const RequestParser::value_type& request, bool keep_alive);
   asio::awaitable<ApiResponse> respond(const ApiRequest& request);
   asio::awaitable<void> await_news(NewsWait wait);
@@ -161,6 +173,7 @@ struct HttpServer::Parts {
   ListenAddress listening;
   int connections = 0;
   std::uint64_t body_bytes = 0;  // that peers may send just now
+  LiveSessions live;
   // What waits in these owns sessions, which use the members above.
   asio::io_context io{1};
   tcp::acceptor acceptor;
@@ -186,12 +199,14 @@ asio::awaitable<void> HttpServer::Parts::accept_all() {
 
 /// Ends when the peer does, on the first mistake, or when patience does.
 asio::awaitable<void> HttpServer::Parts::session(beast::tcp_stream stream) {
+  Then then = Then::next_request;
   try {
     beast::flat_buffer buffer(header_limit + 1024);
-    while (co_await converse(stream, buffer)) {}
+    while (then == Then::next_request) then = co_await converse(stream, buffer);
   } catch (const std::exception&) {  // of the peer's making; nobody is left to be told
+    then = Then::farewell;
   }
-  co_await see_off(stream);
+  if (then == Then::farewell) co_await see_off(stream);
   --connections;
 }
 
@@ -206,8 +221,8 @@ asio::awaitable<void> HttpServer::Parts::see_off(beast::tcp_stream& stream) {
   while (!error) co_await stream.async_read_some(buffer, asio::redirect_error(asio::use_awaitable, error));
 }
 
-/// One request and its answer. True if another may follow.
-asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, beast::flat_buffer& buffer) {
+/// One request and its answer.
+asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, beast::flat_buffer& buffer) {
   RequestParser parser;
   parser.header_limit(header_limit);
   parser.body_limit(submission_limit);
@@ -217,7 +232,7 @@ asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
   co_await http::async_read_header(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
   ApiRequest request = api_request(parser.get());
   std::optional<ApiResponse> refused = error ? complaint(error) : refusal(request, listening);
-  if (error && !refused) co_return false;
+  if (error && !refused) co_return Then::farewell;
   const std::uint64_t limit = body_limit(request);
   const std::uint64_t expected = refused ? 0 : expected_body(parser, limit);
   if (!refused && expected > limit) refused = complaint(http::error::body_limit);
@@ -230,21 +245,26 @@ asio::awaitable<bool> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
     stream.expires_after(settings.body_patience);
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
     if (error) refused = complaint(error);
-    if (error && !refused) co_return false;
+    if (error && !refused) co_return Then::farewell;
   }
   if (refused) co_return co_await reply(stream, std::move(*refused), parser.get(), false);
+  if (is_live(parser.get())) {
+    RequestParser::value_type upgrade = parser.release();
+    co_await live.serve(std::move(stream), std::move(upgrade));
+    co_return Then::nothing;
+  }
 
   request.body = std::move(parser.get().body());
   ApiResponse answered = co_await respond(request);
   co_return co_await reply(stream, std::move(answered), parser.get(), parser.get().keep_alive());
 }
 
-asio::awaitable<bool> HttpServer::Parts::reply(beast::tcp_stream& stream, ApiResponse answer,
+asio::awaitable<Then> HttpServer::Parts::reply(beast::tcp_stream& stream, ApiResponse answer,
                                                const RequestParser::value_type& request, bool keep_alive) {
   Response response = http_response(answer, request, keep_alive);
   stream.expires_after(write_patience);
   co_await http::async_write(stream, response, asio::use_awaitable);
-  co_return response.keep_alive();
+  co_return response.keep_alive() ? Then::next_request : Then::farewell;
 }
 
 /// What is not there yet is asked for again while the peer wants to wait.
@@ -291,10 +311,12 @@ HttpServer::HttpServer(const HttpSettings& settings, const Doors& doors)
 
 HttpServer::~HttpServer() {
   for (asio::thread_pool& pool : parts_->threads) pool.stop();  // what has not begun is dropped
+  parts_->live.stop();
   parts_->doors.farm.close();
   parts_->io.stop();
   parts_->thread.join();
   for (asio::thread_pool& pool : parts_->threads) pool.join();
+  parts_->live.join();
 }
 
 std::string HttpServer::url() const {

@@ -25,6 +25,7 @@ struct HttpSettings {
   bool insecure = false;                              // without it only loopback is listened to
   std::chrono::milliseconds header_patience{30'000};  // also how long an idle connection is kept
   std::chrono::milliseconds body_patience{60'000};    // 64 MB from a slow PC of the lab
+  std::chrono::milliseconds viewer_patience{60'000};  // with one who takes nothing of what it watches
 };
 
 class HttpServer {

@@ -1,8 +1,10 @@
-// Workers: listing and steering.
+// Workers: listing and steering, and what happened to them.
 #include <nlohmann/json.hpp>
 
-#include "master/http/farm_json.h"
+#include "common/net/text.h"
+#include "master/http/live_json.h"
 #include "master/http/route.h"
+#include "master/http/worker_list.h"
 
 namespace rayfarm {
 namespace {
@@ -10,10 +12,8 @@ namespace {
 using nlohmann::json;
 
 ApiResponse list_workers(const Call& call) {
-  return shown(call.doors.farm.ask([](Farm& farm, FarmTime now) {
-    json workers = json::array();
-    for (const WorkerView& worker : farm.workers()) workers.push_back(to_json(worker, now));
-    return json{{"workers", std::move(workers)}};
+  return shown(call.doors.farm.ask([&master = call.doors.master](Farm& farm, FarmTime now) {
+    return json{{"workers", to_json(worker_list(farm, master), now)}};
   }));
 }
 
@@ -34,10 +34,53 @@ ApiResponse undrain_worker(const Call& call) {
       call, [](Farm& farm, const std::string& name, FarmTime now) { return farm.undrain(name, now); });
 }
 
+ApiResponse ban_worker(const Call& call) {
+  return change_worker(call, [](Farm& farm, const std::string& name, FarmTime now) {
+    for (const WorkerView& worker : farm.workers())
+      if (worker.info.name == name && worker.info.kind == WorkerKind::local)
+        throw ApiError(409, "the master's own threads cannot be banned; drain them");
+    return farm.ban(name, now);
+  });
+}
+ApiResponse unban_worker(const Call& call) {
+  return change_worker(
+      call, [](Farm& farm, const std::string& name, FarmTime now) { return farm.unban(name, now); });
+}
+
+ApiResponse dial_worker(const Call& call) {
+  const json body = body_of(call);
+  if (body.size() != 1 || !body.contains("dial") || !body["dial"].is_string())
+    throw ApiError(400, R"(say {"dial": "NAME=HOST"} or {"dial": "NAME=HOST:PORT"})");
+  const std::string target = body["dial"];
+  if (!is_plain_text(target)) throw ApiError(422, "dial must be one line of text without control characters");
+  call.doors.farm.ask([&master = call.doors.master, target](Farm&, FarmTime) {
+    master.dial(target);
+    return true;
+  });
+  return {201, "application/json", json{{"dial", target}}.dump()};
+}
+
+ApiResponse show_log(const Call& call) {
+  const std::uint64_t after = number_in(call.query, "after");
+  return shown(call.doors.farm.ask([&master = call.doors.master, after](Farm&, FarmTime now) {
+    json lines = json::array();
+    std::uint64_t last = after;
+    for (const LogLine& line : master.log(after)) {
+      lines.push_back(to_json(line, now));
+      last = line.number;
+    }
+    return json{{"last", last}, {"lines", std::move(lines)}};
+  }));
+}
+
 constexpr Route routes[]{
     {"GET", "/api/v1/workers", list_workers},
     {"POST", "/api/v1/workers/{name}/drain", drain_worker},
     {"POST", "/api/v1/workers/{name}/undrain", undrain_worker},
+    {"POST", "/api/v1/workers/{name}/ban", ban_worker},
+    {"POST", "/api/v1/workers/{name}/unban", unban_worker},
+    {"POST", "/api/v1/workers", dial_worker},
+    {"GET", "/api/v1/log", show_log},
 };
 
 }  // namespace

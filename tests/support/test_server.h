@@ -1,5 +1,6 @@
 // An HTTP server before a test's farm.
 #pragma once
+#include "master/diagnostics/diagnostics.h"
 #include "master/http/server.h"
 #include "tests/support/farm_thread.h"
 
@@ -9,10 +10,18 @@ inline OnFarm door_to(FarmThread& farm) {
   return [&farm](FarmThread::Task task) { farm.post(std::move(task)); };
 }
 
+/// A master that dials nobody and has no log.
+inline MasterDoor lone_master() {
+  return {[](const std::string&) {}, [] { return std::vector<Dialling>{}; },
+          [](std::uint64_t) { return std::vector<LogLine>{}; }};
+}
+
 class TestServer {
  public:
   explicit TestServer(OnFarm on_farm, HttpSettings settings = {.listen = "127.0.0.1:0"})
-      : door_(std::move(on_farm)), server_(std::move(settings), {.farm = door_, .app = app_}) {}
+      : door_(std::move(on_farm)),
+        server_(std::move(settings),
+                {.farm = door_, .diagnostics = diagnostics_, .master = master_, .app = app_}) {}
 
   std::string url() const { return server_.url(); }
   std::uint16_t port() const {
@@ -21,6 +30,8 @@ class TestServer {
 
  private:
   FarmDoor door_;
+  const MasterDoor master_ = lone_master();
+  Diagnostics diagnostics_{1};
   const AppFiles app_;
   HttpServer server_;
 };

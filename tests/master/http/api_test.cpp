@@ -6,7 +6,7 @@
 
 #include "common/net/codec.h"
 #include "master/http/submission.h"
-#include "tests/support/farm_thread.h"
+#include "tests/support/test_server.h"
 #include "tests/support/test_submission.h"
 
 namespace rayfarm {
@@ -17,10 +17,12 @@ using nlohmann::json;
 class Api : public testing::Test {
  protected:
   ApiResponse get(const std::string& target) {
-    return answer({"GET", target, "", "", "", "", ""}, {.farm = door, .app = app});
+    return answer({"GET", target, "", "", "", "", ""},
+                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app});
   }
   ApiResponse post(const std::string& target, const json& body = json::object()) {
-    return answer({"POST", target, "", "", "", "", body.dump()}, {.farm = door, .app = app});
+    return answer({"POST", target, "", "", "", "", body.dump()},
+                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app});
   }
   json get_json(const std::string& target) { return json::parse(get(target).body); }
   std::string submit(const JobSpec& spec = small_job()) {
@@ -32,6 +34,8 @@ class Api : public testing::Test {
 
   FarmThread farm;
   FarmDoor door{[this](FarmThread::Task task) { farm.post(std::move(task)); }};
+  Diagnostics diagnostics{1};
+  MasterDoor master = lone_master();
   const AppFiles app;
 };
 
