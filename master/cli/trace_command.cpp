@@ -33,33 +33,12 @@ std::optional<std::uint32_t> number_in(std::string_view text) {
 }
 
 /// "X,Y". Throws SettingsError.
-Pixel pixel_of(const std::string& text, const RenderSettings& s) {
+Pixel pixel_of(const std::string& text) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const auto x = number_in(std::string_view(text).substr(0, comma));
   const auto y = comma < text.size() ? number_in(std::string_view(text).substr(comma + 1)) : std::nullopt;
   if (!x || !y) throw SettingsError("--pixel wants X,Y, as in 320,240, is " + text);
-  if (*x >= s.width || *y >= s.height)
-    throw SettingsError("--pixel " + text + " lies outside the picture of " + std::to_string(s.width) + "x" +
-                        std::to_string(s.height) + "; the last pixel is " + std::to_string(s.width - 1) +
-                        "," + std::to_string(s.height - 1));
   return {*x, *y};
-}
-
-std::vector<TracedSample> traced(const World& world, const RenderSettings& s, Pixel pixel,
-                                 const std::string& which) {
-  std::vector<TracedSample> samples;
-  if (which == "centre") {
-    samples.push_back(traced_centre(world, s, pixel));
-  } else if (which == "all") {
-    for (std::uint32_t i = 0; i < s.spp; ++i) samples.push_back(traced_sample(world, s, pixel, i));
-  } else {
-    const auto number = number_in(which);
-    if (!number || *number >= s.spp)
-      throw SettingsError("--sample must be a number from 0 to " + std::to_string(s.spp - 1) +
-                          " (see --spp), all or centre, is " + which);
-    samples.push_back(traced_sample(world, s, pixel, *number));
-  }
-  return samples;
 }
 
 void check_svg(const std::string& file) {
@@ -72,11 +51,11 @@ void check_svg(const std::string& file) {
 ExitCode trace(const TraceArguments& a) {
   check_svg(a.svg_file);
   PreparedScene scene = prepare(a.picture);
-  const Pixel pixel = pixel_of(a.pixel, scene.settings);
-  PixelTrace trace{pixel, {}, leaf_names(scene.scene)};
+  const Pixel pixel = pixel_of(a.pixel);
+  const SampleChoice choice = sample_choice(a.sample, scene.settings);
+  auto names = std::make_shared<std::vector<std::string>>(leaf_names(scene.scene));
   const World world(std::move(scene.scene));
-  for (TracedSample& sample : traced(world, scene.settings, pixel, a.sample))
-    trace.samples.push_back(with_story(world, std::move(sample)));
+  const PixelTrace trace = pixel_trace(world, names, scene.settings, pixel, choice);
 
   if (!a.svg_file.empty()) {
     const std::string svg = svg_of(trace);
@@ -85,7 +64,7 @@ ExitCode trace(const TraceArguments& a) {
   if (a.json) {
     print_json(to_json(trace));
   } else {
-    for (std::string& name : trace.leaf_names) name = printable(name);
+    for (std::string& name : *names) name = printable(name);
     std::fputs(text_of(trace).c_str(), stdout);
   }
   return ExitCode::done;

@@ -1,12 +1,16 @@
 // Traced samples of a pixel as people and programs read them.
 #pragma once
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "master/diagnostics/csg_story.h"
 #include "master/diagnostics/ray_tree.h"
 
 namespace rayfarm {
+
+using LeafNames = std::shared_ptr<const std::vector<std::string>>;
 
 struct PixelTrace {
   Pixel pixel;
@@ -15,11 +19,13 @@ struct PixelTrace {
     CsgStory story;  // of the primary ray
   };
   std::vector<Sample> samples;
-  std::vector<std::string> leaf_names;  // by leaf
+  LeafNames leaf_names;    // by leaf
+  bool truncated = false;  // there were more rays than the limits allow
 };
 
-/// Which samples of the pixel: traced with its story.
-PixelTrace::Sample with_story(const World& world, TracedSample traced);
+/// As traced_samples().
+PixelTrace pixel_trace(const World& world, LeafNames leaf_names, const RenderSettings& settings, Pixel pixel,
+                       const SampleChoice& choice, const RecordLimits& limits = {});
 
 /// An indented tree for each sample, a line for each ray and light; ends in a newline.
 std::string text_of(const PixelTrace& trace);

@@ -84,15 +84,16 @@ json to_json(const PixelTrace& trace) {
     json leaves = json::array();
     for (const LeafStretches& leaf : story.leaves)
       leaves.push_back({{"leaf", leaf.leaf},
-                        {"name", trace.leaf_names[leaf.leaf]},
+                        {"name", (*trace.leaf_names)[leaf.leaf]},
                         {"stretches", json_of(leaf.stretches)}});
     samples.push_back({{"sample", traced.number ? json(*traced.number) : json("centre")},
                        {"film", {traced.x, traced.y}},
+                       {"weight", traced.weight},
                        {"color", json_of(traced.ray.color)},
-                       {"ray", json_of(traced.ray, trace.leaf_names)},
+                       {"ray", json_of(traced.ray, *trace.leaf_names)},
                        {"csg", {{"leaves", leaves}, {"material", json_of(story.material)}}}});
   }
-  return {{"pixel", {trace.pixel.x, trace.pixel.y}}, {"samples", samples}};
+  return {{"pixel", {trace.pixel.x, trace.pixel.y}}, {"samples", samples}, {"truncated", trace.truncated}};
 }
 
 }  // namespace rayfarm

@@ -132,7 +132,7 @@ class Drawing {
 std::string svg_of(const PixelTrace& trace) {
   Box box;
   for (const PixelTrace::Sample& sample : trace.samples) box = hull(box, bounds_of(sample.traced.ray));
-  Drawing drawing(box, trace.leaf_names);
+  Drawing drawing(box, *trace.leaf_names);
   for (const PixelTrace::Sample& sample : trace.samples) drawing.add(sample.traced.ray);
   return formatted(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" font-family=\"sans-serif\" "

@@ -98,14 +98,10 @@ class Writer {
 
 }  // namespace
 
-PixelTrace::Sample with_story(const World& world, TracedSample traced) {
-  CsgStory story = csg_story(world, {traced.ray.origin, traced.ray.direction});
-  return {std::move(traced), std::move(story)};
-}
-
 std::string text_of(const PixelTrace& trace) {
-  Writer writer(trace.leaf_names);
+  Writer writer(*trace.leaf_names);
   for (const PixelTrace::Sample& sample : trace.samples) writer.add(sample, trace.pixel);
+  if (trace.truncated) writer.text += "there are more rays than these\n";
   return std::move(writer.text);
 }
 

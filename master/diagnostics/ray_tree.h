@@ -1,6 +1,10 @@
 // The rays behind one sample of a pixel, as a tree, recorded by the code that renders.
 #pragma once
+#include <functional>
+#include <limits>
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "common/render/pixel.h"
@@ -56,14 +60,31 @@ struct RayRecord {
 struct TracedSample {
   std::optional<std::uint32_t> number;  // none: the pixel's centre, which the picture did not use
   double x = 0, y = 0;                  // on the film, in pixels
+  std::uint32_t weight = 1;             // in the pixel's mean
   RayRecord ray;
 };
 
-/// Sample `number` of the pixel as the render traced it: the same rays and bits. The pixel lies in the picture,
-/// the number is less than settings.spp.
-TracedSample traced_sample(const World& world, const RenderSettings& settings, Pixel pixel,
-                           std::uint32_t number);
-/// Through the pixel's centre and to the lights' middles.
-TracedSample traced_centre(const World& world, const RenderSettings& settings, Pixel pixel);
+/// Which samples of a pixel: one by its number, all, or a ray through its centre and to the lights' middles.
+struct EverySample {};
+struct PixelCentre {};
+using SampleChoice = std::variant<std::uint32_t, EverySample, PixelCentre>;
+/// "3", "all" or "centre". Throws SettingsError.
+SampleChoice sample_choice(const std::string& text, const RenderSettings& settings);
+
+/// A sample may trace 2^depth rays.
+struct RecordLimits {
+  std::size_t rays = std::numeric_limits<std::size_t>::max();  // those to the lights, too
+  std::function<bool()> stop{};                                // asked every few hundred rays; empty: never
+};
+
+struct TracedSamples {
+  std::vector<TracedSample> samples;
+  bool truncated = false;  // rays are missing from here on; those on the way to them have no colour
+};
+
+/// Samples of the pixel as the render traced them: the same rays and bits. Throws SettingsError for what the
+/// picture has not got.
+TracedSamples traced_samples(const World& world, const RenderSettings& settings, Pixel pixel,
+                             const SampleChoice& choice, const RecordLimits& limits = {});
 
 }  // namespace rayfarm

@@ -29,7 +29,8 @@ void for_each_traced_pixel(Visit&& visit) {
     for (std::uint32_t y = 0; y < side; ++y)
       for (std::uint32_t x = 0; x < side; ++x) {
         std::vector<RayRecord> rays;
-        for (std::uint32_t i = 0; i < s.spp; ++i) rays.push_back(traced_sample(world, s, {x, y}, i).ray);
+        for (TracedSample& sample : traced_samples(world, s, {x, y}, EverySample{}).samples)
+          rays.push_back(std::move(sample.ray));
         visit(world, s, Pixel{x, y}, rays);
       }
   }
@@ -54,7 +55,7 @@ TEST(RayTree, TheMeanOfThePixelsSamplesIsTheRenderedPixelBitForBit) {
     }
     ASSERT_EQ(rendered, &world);
     PixelSum sum;
-    for (const RayRecord& ray : rays) sum.add(ray.color);
+    for (const RayRecord& ray : rays) sum.add(ray.color, 1);
     for (std::size_t c = 0; c < 3; ++c)
       ASSERT_EQ(sum.mean(s.spp)[c], film.rgb()[3 * (p.y * side + p.x) + c]) << p.x << "," << p.y;
   });
@@ -117,6 +118,118 @@ TEST(RayTree, WhatBlocksALightStandsBeforeIt) {
   EXPECT_GT(blocked, 100);
 }
 
+/// Flat: how many rays, those to the lights too.
+std::size_t rays_in(const std::vector<TracedSample>& samples) {
+  std::size_t rays = 0;
+  for (const TracedSample& sample : samples)
+    for_each_ray(sample.ray, [&](const RayRecord& ray) {
+      ++rays;
+      for (const LightAtHit& light : ray.lights)
+        rays += light.fate == LightFate::reached || light.fate == LightFate::blocked;
+    });
+  return rays;
+}
+
+/// The records of a are the first of b's.
+void expect_beginning(const RayRecord& a, const RayRecord& b) {
+  EXPECT_EQ(a.origin, b.origin);
+  EXPECT_EQ(a.direction, b.direction);
+  EXPECT_EQ(a.hit.has_value(), b.hit.has_value());
+  ASSERT_LE(a.lights.size(), b.lights.size());
+  ASSERT_LE(a.followed.size(), b.followed.size());
+  for (std::size_t i = 0; i < a.followed.size(); ++i) expect_beginning(a.followed[i], b.followed[i]);
+}
+
+TEST(RayTree, OneSampleIsTheSameAsAmongAll) {
+  for (const SamplerKind sampler : {SamplerKind::sobol, SamplerKind::adapt1}) {
+    RenderSettings s = small_settings();
+    s.sampler = sampler;
+    const World world(random_scene(3));
+    const auto all = traced_samples(world, s, {11, 12}, EverySample{}).samples;
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+      const auto one = traced_samples(world, s, {11, 12}, i).samples;
+      ASSERT_EQ(one.size(), 1u);
+      EXPECT_EQ(one[0].number, i);
+      EXPECT_EQ(std::pair(one[0].x, one[0].y), std::pair(all[i].x, all[i].y));
+      EXPECT_EQ(one[0].ray.color, all[i].ray.color);
+      EXPECT_EQ(rays_in(one), rays_in({all[i]}));
+    }
+  }
+}
+
+TEST(RayTree, AdaptiveSamplesHaveTheWeightsOfTheRenderedPixel) {
+  RenderSettings s = small_settings();
+  s.sampler = SamplerKind::adapt1, s.spp = 16;
+  const World world(random_scene(3));
+  Film film({side, side});
+  const auto images = render_tile(world, s, 0, all_passes, [] { return false; });
+  for (const PassImage& image : *images) film.put(0, image);
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
+      PixelSum sum;
+      for (const TracedSample& sample : traced_samples(world, s, {x, y}, EverySample{}).samples)
+        sum.add(sample.ray.color, sample.weight);
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_EQ(sum.mean(pixel_weight(s))[c], film.rgb()[3 * (y * side + x) + c]) << x << "," << y;
+    }
+}
+
+TEST(RayTree, IsCutAtTheLimitAndSaysSo) {
+  const RenderSettings s = small_settings();
+  const World world(random_scene(3));
+  for (std::uint32_t x = 0; x < side; ++x) {
+    const TracedSamples whole = traced_samples(world, s, {x, 12}, EverySample{});
+    EXPECT_FALSE(whole.truncated);
+    const std::size_t rays = rays_in(whole.samples);
+    for (std::size_t limit = 0; limit <= rays; ++limit) {
+      const TracedSamples cut = traced_samples(world, s, {x, 12}, EverySample{}, {.rays = limit});
+      EXPECT_EQ(cut.truncated, limit < rays);
+      ASSERT_LE(rays_in(cut.samples), limit);
+      ASSERT_LE(cut.samples.size(), whole.samples.size());
+      for (std::size_t i = 0; i < cut.samples.size(); ++i)
+        expect_beginning(cut.samples[i].ray, whole.samples[i].ray);
+    }
+  }
+}
+
+TEST(RayTree, AStopIsHeardInTheMiddleOfASample) {
+  Scene scene = random_scene(3);
+  for (Material& material : scene.materials) material.transmission = material.specular = 1;
+  RenderSettings s = small_settings();
+  s.max_depth = 100, s.min_importance = 0;
+  const World world(scene);
+  int questions = 0;
+  std::size_t rays = 0;
+  for (std::uint32_t x = 0; x < side; ++x) {
+    const TracedSamples cut =
+        traced_samples(world, s, {x, 12}, 0u, {.stop = [&] { return ++questions > 3; }});
+    rays = std::max(rays, rays_in(cut.samples));
+  }
+  EXPECT_GT(questions, 3) << "else the scene is too simple";
+  EXPECT_LT(rays, 100'000u);
+}
+
+TEST(RayTree, WhatThePictureHasNotGotIsNamed) {
+  const RenderSettings s = small_settings();
+  const World world(random_scene(3));
+  const auto complaint = [&](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const SettingsError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(complaint([&] {
+              traced_samples(world, s, {side, 0}, EverySample{});
+            }).find("23,23"),
+            std::string::npos);
+  EXPECT_NE(complaint([&] { traced_samples(world, s, {0, 0}, 4u); }).find("from 0 to 3"), std::string::npos);
+  for (const char* text : {"4", "-1", "", "1x", "some"})
+    EXPECT_NE(complaint([&] { sample_choice(text, s); }).find("from 0 to 3"), std::string::npos) << text;
+  EXPECT_EQ(std::get<std::uint32_t>(sample_choice("3", s)), 3u);
+}
+
 TEST(CsgStory, TheMaterialBeginsOrEndsWhereThePrimaryRayHits) {
   int hits = 0;
   for_each_traced_pixel([&](const World& world, const RenderSettings&, Pixel, const auto& rays) {
@@ -157,11 +270,9 @@ PixelTrace trace_of_a_ball() {
   scene.camera = PerspectiveCamera{{0, 1, -6}, {0, -0.2, 1}, {0, 1, 0}, 40};
   scene.lights = {AmbientLight{}, PointLight{{0, 9, -1}}};
   const World world(scene);
-  RenderSettings s = small_settings();
-  PixelTrace trace{{side / 2, side / 2}, {}, leaf_names(scene)};
-  for (std::uint32_t i = 0; i < s.spp; ++i)
-    trace.samples.push_back(with_story(world, traced_sample(world, s, trace.pixel, i)));
-  return trace;
+  const RenderSettings s = small_settings();
+  const auto names = std::make_shared<std::vector<std::string>>(leaf_names(scene));
+  return pixel_trace(world, names, s, {side / 2, side / 2}, EverySample{});
 }
 
 TEST(PixelTrace, AsJsonHasTheSameTree) {
