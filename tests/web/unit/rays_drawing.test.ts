@@ -17,6 +17,8 @@ const pose = framed(
 const unitBox = { min: [0, 0, 0], max: [1, 1, 1] } as const;
 const scene = {
   background: [1, 0, 0],
+  camera: { from: glass.samples[0]!.ray.origin },
+  lights: [{ kind: "ambient" }, { kind: "point", at: [-5, 4, -3] }],
   solids: [{ leaf: 0, name: "a", kind: "cube", color: [0, 1, 0], box: unitBox, matrix: [], parameters: {} }],
 } as unknown as SceneView;
 const drawing = {
@@ -25,6 +27,7 @@ const drawing = {
   height: 200,
   scene,
   boxes: true,
+  icons: true,
   segments,
   importanceAs: "nothing",
   title: "a < b",
@@ -43,9 +46,16 @@ describe("the drawing of the rays", () => {
     expect(svg).toContain('fill="rgb(255 0 0)"');
   });
 
+  it("names the camera and the lights that have a place", () => {
+    expect(svg).toContain(">camera</text>");
+    expect(svg).toContain(">light 1</text>");
+    expect(svg).not.toContain("light 0");
+    expect(svgOf({ ...drawing, icons: false })).not.toContain("<text");
+  });
+
   it("is well formed, with its title escaped", () => {
     expect(svg).toContain("<title>a &lt; b</title>");
-    expect(svg.split("<line ").length).toBe(svg.split("/>").length - 1);
+    for (const [tag] of svg.matchAll(/<(line|rect|circle) [^>]*>/g)) expect(tag).toMatch(/\/>$/);
     expect(svg.trimEnd().endsWith("</svg>")).toBe(true);
   });
 

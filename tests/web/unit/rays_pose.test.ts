@@ -84,7 +84,7 @@ describe("the view", () => {
     ];
     for (const pose of [
       framed(orbited(front, 0.5, 0.2), places, 2),
-      overview(places, [0, -0.2, 1], [0, 1, 0]),
+      overview(places, [0, -0.2, 1], [0, 1, 0], 2),
     ]) {
       const shares = places.map((place) => {
         const { x, y } = projectorOf(pose, 200, 100).point(place)!;

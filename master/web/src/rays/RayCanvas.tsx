@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { bytes } from "../app/format";
 import { probed, selectedId } from "../app/state";
-import { pose } from "./camera";
+import { pose, setAspect } from "./camera";
 import { cloudState } from "./cloud";
 import { currentSvg, save } from "./export";
 import { shown } from "./options";
@@ -53,7 +53,11 @@ function open(canvas: HTMLCanvasElement): () => void {
     clicked: (x, y) => select(rayAt(x, y)),
   });
   const opened = view;
-  const observer = new ResizeObserver(() => opened.stage.resize(canvas.clientWidth, canvas.clientHeight));
+  const observer = new ResizeObserver(() => {
+    const { clientWidth: width, clientHeight: height } = canvas;
+    opened.stage.resize(width, height);
+    if (height > 0) setAspect(width / height);
+  });
   observer.observe(canvas.parentElement!);
   return () => {
     observer.disconnect();

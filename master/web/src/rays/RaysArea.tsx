@@ -3,7 +3,7 @@ import { effect, untracked } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { selectedId } from "../app/state";
 import { alignWithPrimary } from "./align";
-import { setHome } from "./camera";
+import { show } from "./camera";
 import { followCloud } from "./cloud";
 import { keepAligned } from "./options";
 import { answer, asking, followProbe, sampleChoice } from "./probe";
@@ -22,7 +22,7 @@ function followViews(): () => void {
   const ends = [
     effect(() => {
       const seen = scene.value;
-      if (seen) untracked(() => setHome(landmarksOf(seen), seen.camera.direction, seen.camera.up));
+      if (seen) untracked(() => show(landmarksOf(seen), seen.camera.direction, seen.camera.up));
     }),
     effect(() => {
       if (answer.value && keepAligned.peek()) untracked(alignWithPrimary);

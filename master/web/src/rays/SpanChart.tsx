@@ -106,10 +106,7 @@ export function SpanChart() {
   const empty = sample.csg.leaves.length === 0;
   return (
     <section class="rays-spans" aria-label="Set operations along the primary ray">
-      <h3>
-        Solids along the primary ray{sample.sample === "centre" ? "" : ` of sample ${sample.sample}`}: inside
-        which solids
-      </h3>
+      <h3>Solids along the primary ray{sample.sample === "centre" ? "" : ` of sample ${sample.sample}`}</h3>
       {empty ? <p class="quiet">It passes through none.</p> : <Chart sample={sample} />}
     </section>
   );

@@ -3,18 +3,27 @@ import { signal } from "@preact/signals";
 import { alongRay, alike, moved, overview, poseBetween, zoomed, type Pose } from "./pose";
 import type { Vec3 } from "../app/types";
 
-export const home = signal<Pose>(
-  overview(
-    [
-      [-1, -1, -1],
-      [1, 1, 1],
-    ],
-    [0, 0, 1],
-    [0, 1, 0],
-  ),
-);
-export const pose = signal<Pose>(home.value);
-const goal = signal<Pose>(home.value);
+/// What an overview shows.
+interface Subject {
+  places: readonly Vec3[];
+  cameraDirection: Vec3;
+  up: Vec3;
+}
+let subject: Subject = {
+  places: [
+    [-1, -1, -1],
+    [1, 1, 1],
+  ],
+  cameraDirection: [0, 0, 1],
+  up: [0, 1, 0],
+};
+/// Of the canvas: its width over its height.
+let aspect = 1.3;
+export const setAspect = (value: number): void => void (aspect = value);
+const home = (): Pose => overview(subject.places, subject.cameraDirection, subject.up, aspect);
+
+export const pose = signal<Pose>(home());
+const goal = signal<Pose>(pose.value);
 /// Differs from pose while the view is on its way.
 export const isStill = (): boolean => pose.value === goal.value;
 
@@ -41,14 +50,13 @@ export function approach(milliseconds: number): void {
   pose.value = alike(next, goal.value) ? goal.value : next;
 }
 
-/// All the places are seen from there.
-export function setHome(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3): void {
-  const before = goal.value;
-  home.value = overview(places, cameraDirection, up);
-  jumpTo({ ...home.value, orthographic: before.orthographic });
+/// A new scene is seen whole at first.
+export function show(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3): void {
+  subject = { places, cameraDirection, up };
+  jumpTo({ ...home(), orthographic: goal.value.orthographic });
 }
 
-export const reset = (): void => goTo({ ...home.value, orthographic: goal.value.orthographic });
+export const reset = (): void => goTo({ ...home(), orthographic: goal.value.orthographic });
 export const toggleOrthographic = (): void =>
   jumpBy((from) => ({ ...from, orthographic: !from.orthographic }));
 export const step = (right: number, up: number, forward: number): void =>
@@ -57,5 +65,5 @@ export const zoom = (factor: number): void => goBy((from) => zoomed(from, factor
 
 /// From the ray's origin along it; its end is in the middle, where turning goes around.
 export function lookAlong(origin: Vec3, direction: Vec3, distance: number): void {
-  goBy((from) => alongRay(from, origin, direction, distance, home.value.up));
+  goBy((from) => alongRay(from, origin, direction, distance, subject.up));
 }

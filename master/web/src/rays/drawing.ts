@@ -1,11 +1,11 @@
 // The rays as a drawing: what the 3D view shows, as SVG.
 import { cssOf } from "./color";
 import type { Pose } from "./pose";
-import { projectorOf, type Point2 } from "./projection";
+import { projectorOf, type Point2, type Projector } from "./projection";
 import type { SceneView } from "./scene";
 import type { Segment } from "./segments";
-import { penOf } from "./strokes";
-import { edgesOf } from "./vec";
+import { penOf, styles } from "./strokes";
+import { add, along, edgesOf } from "./vec";
 
 const escaped = (text: string): string =>
   text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
@@ -18,9 +18,30 @@ export interface Drawing {
   height: number;
   scene: SceneView | null;
   boxes: boolean;
+  icons: boolean;
   segments: readonly Segment[];
   importanceAs: string;
   title: string;
+}
+
+/// The camera and the lights, as dots with their names.
+function marksOf({ scene, icons }: Drawing, projector: Projector): string[] {
+  if (!scene || !icons) return [];
+  const lights = scene.lights.flatMap((light, i) => {
+    if (light.kind === "ambient") return [];
+    const middle = light.kind === "point" ? light.at : along(light.at, add(light.width, light.height), 0.5);
+    return [{ at: middle, name: `light ${i}`, color: styles.shadow.color }];
+  });
+  const camera = { at: scene.camera.from, name: "camera", color: styles.camera.color };
+  return [camera, ...lights].flatMap(({ at, name, color }) => {
+    const seen = projector.point(at);
+    if (!seen) return [];
+    const [x, y] = [seen.x.toFixed(2), seen.y.toFixed(2)];
+    return [
+      `<circle cx="${x}" cy="${y}" r="5" fill="${color}" stroke="#14171c" stroke-width="1.5"/>`,
+      `<text x="${x}" y="${y}" dx="9" dy="4" font-family="sans-serif" font-size="12" fill="${color}">${name}</text>`,
+    ];
+  });
 }
 
 /// The rays as the view shows them, over the boxes.
@@ -54,6 +75,7 @@ export function svgOf(drawing: Drawing): string {
     ...boxes,
     ...rays,
     `</g>`,
+    ...marksOf(drawing, projector),
     `</svg>`,
     "",
   ].join("\n");

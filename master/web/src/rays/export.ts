@@ -29,6 +29,7 @@ export function currentSvg(width: number, height: number): Blob {
     height,
     scene: scene.value,
     boxes: shown.boxes.value,
+    icons: shown.icons.value,
     segments: segmentsShown.value,
     importanceAs: importanceAs.value,
     title: asked ? `Rays of pixel ${asked.pixel.x}, ${asked.pixel.y} of job ${asked.job}` : "Rays",

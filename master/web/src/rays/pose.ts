@@ -107,7 +107,7 @@ export function framed(pose: Pose, places: readonly Vec3[], aspect: number): Pos
 }
 
 /// All the places, seen from beside and above the scene's camera, with a margin.
-export function overview(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3): Pose {
+export function overview(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3, aspect: number): Pose {
   const behind: Pose = {
     eye: times(unit(cameraDirection), -1),
     target: [0, 0, 0],
@@ -115,7 +115,7 @@ export function overview(places: readonly Vec3[], cameraDirection: Vec3, up: Vec
     angleDeg: 40,
     orthographic: false,
   };
-  return zoomed(framed(orbited(behind, 0.7, 0.35), places, 1.3), 0.92);
+  return zoomed(framed(orbited(behind, -0.7, 0.35), places, aspect), 0.92);
 }
 
 /// On the way from one to the other; keeps the distance from its target as it turns.

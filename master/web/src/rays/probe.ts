@@ -2,7 +2,7 @@
 // pointer passes meanwhile only the newest is asked for.
 import { computed, effect, signal } from "@preact/signals";
 import { getJson } from "../app/api";
-import { probed, selectedId, type Pixel } from "../app/state";
+import { link, probed, selectedId, type Pixel } from "../app/state";
 import { newestWins } from "./newest";
 import type { PixelTrace } from "./trace";
 
@@ -43,7 +43,8 @@ async function fetchAnswer(asked: Question, signal: AbortSignal): Promise<Answer
   return { question: asked, trace, milliseconds: performance.now() - start };
 }
 
-/// Until the result is called. For one follower at a time.
+/// Until the result is called. For one follower at a time. What failed is asked again when the connection to the master
+/// is found again.
 export function followProbe(): () => void {
   const newest = newestWins(
     fetchAnswer,
@@ -69,8 +70,13 @@ export function followProbe(): () => void {
     asking.value = next !== null;
     if (next) newest.ask(next);
   });
+  const retry = effect(() => {
+    const failed = question.peek();
+    if (link.value === "open" && failed && probeError.peek() !== null) newest.ask(failed);
+  });
   return () => {
     unfollow();
+    retry();
     newest.stop();
     asking.value = false;
   };

@@ -1,7 +1,7 @@
 // The selected job's scene as the master describes it (GET /jobs/ID/scene), for the 3D view.
 import { computed, effect, signal } from "@preact/signals";
 import { getJson } from "../app/api";
-import { selectedId } from "../app/state";
+import { link, selectedId } from "../app/state";
 import type { Vec3 } from "../app/types";
 import { answer } from "./probe";
 import { cutBox } from "./segments";
@@ -57,15 +57,21 @@ export const box = computed<Box>(() =>
   cutBox(scene.value && boxOf(scene.value), answer.value?.trace ?? { pixel: [0, 0], samples: [] }),
 );
 
-/// Of the selected job, until the result is called.
+/// Of the selected job, until the result is called. What could not be had is asked for again when the connection to
+/// the master is found again.
 export function followScene(): () => void {
+  let got: number | null = null;
   return effect(() => {
-    scene.value = sceneError.value = null;
     const job = selectedId.value;
+    if (link.value === "lost" || (job !== null && job === got)) return;
+    scene.value = sceneError.value = got = null;
     if (job === null) return;
     const controller = new AbortController();
     getJson<SceneView>(`/jobs/${job}/scene`, controller.signal).then(
-      (view) => (scene.value = view),
+      (view) => {
+        scene.value = view;
+        got = job;
+      },
       (error: unknown) => {
         if (!controller.signal.aborted)
           sceneError.value = error instanceof Error ? error.message : String(error);

@@ -29,7 +29,7 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly perspective = new THREE.PerspectiveCamera();
   private readonly orthographic = new THREE.OrthographicCamera();
-  private readonly headlight = new THREE.DirectionalLight(0xffffff, 1.6);
+  private readonly headlight = new THREE.DirectionalLight(0xffffff, 2.2);
   private width = 0;
   private height = 0;
   private frame = 0;
@@ -43,8 +43,8 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.world.scale.z = -1;
-    this.scene.add(this.world, this.mirrored, new THREE.HemisphereLight(0xffffff, 0x667080, 1.4));
-    this.scene.add(this.headlight, this.headlight.target);
+    this.scene.add(this.world, this.mirrored, new THREE.HemisphereLight(0xffffff, 0x2a2f38, 0.9));
+    this.scene.add(this.headlight); // aims at the origin: only its direction counts
   }
 
   setBackground(color: readonly [number, number, number]): void {
@@ -82,6 +82,7 @@ export class Stage {
     cancelAnimationFrame(this.frame);
     for (const part of [...this.world.children, ...this.mirrored.children]) discard(part);
     this.renderer.dispose();
+    this.renderer.forceContextLoss(); // browsers keep only a few
   }
 
   private tick(now: number): void {
@@ -120,8 +121,8 @@ export class Stage {
     camera.position.set(pose.eye[0], pose.eye[1], -pose.eye[2]);
     camera.lookAt(pose.target[0], pose.target[1], -pose.target[2]);
     camera.updateProjectionMatrix();
-    this.headlight.position.copy(camera.position);
-    this.headlight.target.position.set(pose.target[0], pose.target[1], -pose.target[2]);
+    // From the upper left behind the viewer, so that shapes are seen.
+    this.headlight.position.set(-0.5, 0.7, 1).applyQuaternion(camera.quaternion);
     return camera;
   }
 }
