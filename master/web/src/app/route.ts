@@ -101,10 +101,15 @@ export function startRouting(): void {
   effect(() => {
     const route = routeTo(page.value);
     const hash = hashOf(route);
+    const before = location.hash;
     clearTimeout(timer);
-    if (hash === location.hash) return;
-    if (isStep(parse(location.hash), route)) history.pushState(null, "", hash);
-    // Browsers limit how often; while the picture is moved only where it comes to rest counts.
-    else timer = setTimeout(() => history.replaceState(null, "", hash), 200);
+    if (hash === before) return;
+    if (isStep(parse(before), route)) history.pushState(null, "", hash);
+    // Browsers limit how often; while the picture is moved only where it comes to rest counts. Where a link has led
+    // meanwhile is heard of later than it is in the address: it stays there.
+    else
+      timer = setTimeout(() => {
+        if (location.hash === before) history.replaceState(null, "", hash);
+      }, 200);
   });
 }
