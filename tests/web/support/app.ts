@@ -9,7 +9,8 @@ const screenshots =
 
 export interface App {
   page: Page;
-  /// What the browser complained about; a test of a healthy app expects it to be empty.
+  /// What the browser complained about, and requests to others than the master; a test of a healthy app expects it to
+  /// be empty.
   complaints: string[];
   close(): Promise<void>;
 }
@@ -32,6 +33,10 @@ export async function openApp(url: string, view: { width?: number; height?: numb
     // Reading frames back for screenshots makes the software renderer warn.
     if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
       complaints.push(message.text());
+  });
+  page.on("request", (request) => {
+    if (!request.url().startsWith(url) && !/^(blob|data):/.test(request.url()))
+      complaints.push(`asks another host: ${request.url()}`);
   });
   page.on("pageerror", (error) => complaints.push(String(error)));
   await page.goto(url);

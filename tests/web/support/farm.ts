@@ -39,6 +39,7 @@ export class Farm {
   private farmAddress = "127.0.0.1:0";
   private httpAddress = "127.0.0.1:0";
   private master: ChildProcess | null = null;
+  private submitted = 0;
   private readonly workers = new Map<string, ChildProcess>();
 
   /// A started master; its own threads render too.
@@ -82,6 +83,17 @@ export class Farm {
       maxBuffer: 256 * 1024 * 1024,
     });
     return stdout;
+  }
+
+  /// Submits a scene of the tree, with the settings of `rayfarm submit`; the job's number.
+  async submit(scene: string, ...settings: string[]): Promise<number> {
+    const output = ["-o", this.file(`job-${++this.submitted}.exr`)];
+    const script = join(sceneFolder, `${scene}.lua`);
+    return (JSON.parse(await this.rayfarm("submit", script, ...output, ...settings, "--json")) as { id: number }).id;
+  }
+  /// The same, and waits for its end.
+  render(scene: string, ...settings: string[]): Promise<number> {
+    return this.submit(scene, ...settings, "--wait");
   }
 
   file(name: string): string {
