@@ -140,7 +140,7 @@ function SceneOfJob() {
       The very scene of {job ? `${job.name} (job ${job.id})` : `job ${form.value.job}`}
       {parameters.length > 0 &&
         `, with ${parameters.map(([name, value]) => `${name} = ${value}`).join(", ")}`}
-      . To change its parameters, choose the scene or its script.
+      . To change its parameters or its frame, choose the scene or its script.
     </p>
   );
 }

@@ -30,10 +30,12 @@ export function SettingFields() {
         <NumberField name="max_depth" hint="of reflected and refracted rays" />
         <NumberField name="min_importance" hint="rays of less are not traced" />
         <NumberField name="seed" />
-        <NumberField
-          name="frame"
-          hint={animation ? `0 to ${frames}, ${many(animation.fps, "frame")} a second` : ""}
-        />
+        {form.value.source !== "job" && (
+          <NumberField
+            name="frame"
+            hint={animation ? `0 to ${frames}, ${many(animation.fps, "frame")} a second` : ""}
+          />
+        )}
       </div>
       <div class="switches" role="group" aria-label="Rays that are traced">
         <Switch name="shadows" />
