@@ -106,6 +106,23 @@ function Hint() {
   return null;
 }
 
+/// Beside the pointer, on the side where there is room.
+function Tip() {
+  const at = tip.value;
+  const canvas = view?.stage.canvas;
+  if (!at || !canvas) return null;
+  const across = at.x > canvas.clientWidth / 2 ? `calc(-100% - 12px)` : "12px";
+  const down = at.y > canvas.clientHeight - 40 ? `calc(-100% - 6px)` : "14px";
+  return (
+    <div
+      class="rays-tip"
+      style={{ left: `${at.x}px`, top: `${at.y}px`, transform: `translate(${across}, ${down})` }}
+    >
+      {at.text}
+    </div>
+  );
+}
+
 export function RayCanvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => open(canvas.current!), []);
@@ -140,11 +157,7 @@ export function RayCanvas() {
           <p class="rays-note">Each solid by itself: set operations are not applied.</p>
         )}
       </div>
-      {tip.value && (
-        <div class="rays-tip" style={{ left: `${tip.value.x + 12}px`, top: `${tip.value.y + 12}px` }}>
-          {tip.value.text}
-        </div>
-      )}
+      <Tip />
     </div>
   );
 }

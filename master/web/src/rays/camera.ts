@@ -27,17 +27,17 @@ const goal = signal<Pose>(pose.value);
 /// Differs from pose while the view is on its way.
 export const isStill = (): boolean => pose.value === goal.value;
 
-export function jumpTo(to: Pose): void {
+function jumpTo(to: Pose): void {
   goal.value = pose.value = to;
 }
 
-export function goTo(to: Pose): void {
+function goTo(to: Pose): void {
   goal.value = to;
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) pose.value = to;
 }
 
 /// Steps from where the view is going, so that repeated keys add up.
-export const goBy = (step: (from: Pose) => Pose): void => goTo(step(goal.value));
+const goBy = (step: (from: Pose) => Pose): void => goTo(step(goal.value));
 /// Follows the hand at once.
 export const jumpBy = (step: (from: Pose) => Pose): void => jumpTo(step(pose.value));
 

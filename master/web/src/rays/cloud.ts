@@ -17,7 +17,7 @@ export const cloudState = signal<CloudState>({ state: "none" });
 const mostPoints = 200_000;
 
 /// The body as it comes in; `heard` is told how much is there.
-export async function bodyOf(
+async function bodyOf(
   response: Response,
   heard: (bytes: number, total: number | null) => void,
 ): Promise<ArrayBuffer> {

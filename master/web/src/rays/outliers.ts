@@ -1,7 +1,7 @@
 // Samples of a pixel that stand out, as fireflies do.
 import type { Vec3 } from "../app/types";
 
-export const luminanceOf = ([r, g, b]: Vec3): number => 0.2126 * r + 0.7152 * g + 0.0722 * b; // Rec. 709
+const luminanceOf = ([r, g, b]: Vec3): number => 0.2126 * r + 0.7152 * g + 0.0722 * b; // Rec. 709
 
 export const outlierRule = "luminance more than 2 standard deviations from the mean of the pixel's samples";
 

@@ -34,7 +34,7 @@ const question = computed<Question | null>(() =>
     : { job: selectedId.value, pixel: probed.value, sample: sampleChoice.value },
 );
 
-export const pathOf = ({ job, pixel, sample }: Question): string =>
+const pathOf = ({ job, pixel, sample }: Question): string =>
   `/jobs/${job}/trace?x=${pixel.x}&y=${pixel.y}&sample=${sample}`;
 
 async function fetchAnswer(asked: Question, signal: AbortSignal): Promise<Answer> {

@@ -41,20 +41,27 @@ export function boxOf(view: SceneView): Box {
   return boxAround([...corners, view.camera.from])!;
 }
 
+const lightPlaces = (view: SceneView): Vec3[] =>
+  view.lights.flatMap((light) => (light.kind === "ambient" ? [] : [light.at]));
+
 const farLight = 3; // times the scene's size; beyond it a light is not among the landmarks
 
 /// What an overview shows: the solids that end somewhere, the camera, and the lights unless they are far away.
 export function landmarksOf(view: SceneView): Vec3[] {
   const box = boxOf(view);
   const reach = farLight * diagonalOf(box);
-  const lights = view.lights.flatMap((light) => (light.kind === "ambient" ? [] : [light.at]));
-  const near = lights.filter((at) => lengthOf(minus(at, centreOf(box))) <= reach);
+  const near = lightPlaces(view).filter((at) => lengthOf(minus(at, centreOf(box))) <= reach);
   return [...edgesOf(box).flatMap(({ from, to }) => [from, to]), ...near];
 }
 
 /// Around the scene and the rays: where rays that miss are cut.
 export const box = computed<Box>(() =>
   cutBox(scene.value && boxOf(scene.value), answer.value?.trace ?? { pixel: [0, 0], samples: [] }),
+);
+
+/// Around the lights too, however far away: nothing outside is drawn.
+export const everything = computed<Box>(() =>
+  boxAround([box.value.min, box.value.max, ...(scene.value ? lightPlaces(scene.value) : [])])!,
 );
 
 /// Of the selected job, until the result is called. What could not be had is asked for again when the connection to

@@ -1,7 +1,7 @@
 // How each kind of ray is drawn; the legend, the 3D view and the drawings agree on it.
 import type { Segment, Stroke } from "./segments";
 
-export interface Style {
+interface Style {
   color: string;
   halo: string; // sets the line off from any background
   dash: [on: number, off: number] | null; // pixels
@@ -19,11 +19,11 @@ export const styles: Record<Stroke, Style> = {
 export const accent = "#2fb8ff"; // marks what is pointed at
 
 /// Importance in four steps, so that lines of a step are drawn together: 0 is the least.
-export type Step = 0 | 1 | 2 | 3;
-export const stepOf = (importance: number): Step =>
+type Step = 0 | 1 | 2 | 3;
+const stepOf = (importance: number): Step =>
   importance >= 0.5 ? 3 : importance >= 0.2 ? 2 : importance >= 0.08 ? 1 : 0;
-export const widthOf: Record<Step, number> = { 0: 0.4, 1: 0.6, 2: 0.8, 3: 1 };
-export const opacityOf: Record<Step, number> = { 0: 0.25, 1: 0.45, 2: 0.7, 3: 1 };
+const widthOf: Record<Step, number> = { 0: 0.4, 1: 0.6, 2: 0.8, 3: 1 };
+const opacityOf: Record<Step, number> = { 0: 0.25, 1: 0.45, 2: 0.7, 3: 1 };
 
 export interface Pen {
   color: string;

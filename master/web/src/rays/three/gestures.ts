@@ -36,6 +36,7 @@ export function listenToHands(canvas: HTMLCanvasElement, listener: Listener): ()
     const [dx, dy] = [now.x - before.x, now.y - before.y];
     travelled += Math.hypot(dx, dy);
     if (travelled < clickReach) return;
+    listener.left();
     const other = [...down].find(([id]) => id !== event.pointerId)?.[1];
     if (other) pinch(before, now, other);
     else if (pressed?.pans) pan(dx, dy);

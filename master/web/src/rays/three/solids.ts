@@ -5,7 +5,7 @@ import type { SolidView } from "../scene";
 import { along, type Box, centreOf, cross, diagonalOf, edgesOf, minus, times, unit } from "../vec";
 
 /// Of world_from_local.
-export function matrixOf(rows: readonly number[]): THREE.Matrix4 {
+function matrixOf(rows: readonly number[]): THREE.Matrix4 {
   const [a, b, c, d, e, f, g, h, i, j, k, l] = rows as [
     number,
     number,

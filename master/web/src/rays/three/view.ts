@@ -5,7 +5,7 @@ import { approach, isStill, pose } from "../camera";
 import { cloudState } from "../cloud";
 import { boxStyle, importanceAs, shown } from "../options";
 import { distanceOf } from "../pose";
-import { box, boxOf, scene } from "../scene";
+import { box, boxOf, everything, scene } from "../scene";
 import { allSegments, segmentsShown } from "../segments_shown";
 import { entries, hovered, selected, spanMark } from "../selection";
 import { diagonalOf, edgesOf } from "../vec";
@@ -26,7 +26,7 @@ export function openView(canvas: HTMLCanvasElement, settled: (still: boolean) =>
     fitSprites(stage.world, look);
     fitDashes(stage.world, look, distanceOf(look.pose));
     settled(isStill());
-    return { look, box: box.peek(), again: !isStill() };
+    return { look, box: everything.peek(), again: !isStill() };
   });
 
   /// A part of the picture that is made anew when a signal it reads has changed; null shows none.
