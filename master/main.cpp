@@ -94,6 +94,7 @@ void serve(const Arguments& arguments) {
   StopSignals signals(io, [&] {
     spdlog::info("stopping");
     notify_stopping();
+    diagnostics.stop();
     sessions.stop();
   });
   std::cout << "rayfarm-master: workers " << text_of(sessions.listening_at()) << ", http " << http.url()

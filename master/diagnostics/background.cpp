@@ -43,7 +43,9 @@ Background::Background(unsigned threads, Clock now) : now_(std::move(now)) {
     });
 }
 
-Background::~Background() {
+Background::~Background() { stop(); }
+
+void Background::stop() {
   const Lock lock(mutex_);
   ending_ = true;
   news_.notify_all();

@@ -45,9 +45,11 @@ class Background {
   using TaskRef = std::shared_ptr<Task>;
 
   explicit Background(unsigned threads, Clock now = steady_now);
-  /// Stops as soon as the parts in work hear of it.
   ~Background();
   Background(const Background&) = delete;
+
+  /// Parts in work are told, and no other is begun.
+  void stop();
 
   /// Ends when the last one lets go of it. Nobody has asked for it yet.
   TaskRef add(Work work);

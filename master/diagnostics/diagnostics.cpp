@@ -47,6 +47,18 @@ std::shared_ptr<const ReadyScene> Diagnostics::scene(const Subject& subject) {
   return worlds_.get(subject.scene_hash, subject.scene);
 }
 
+PixelTrace Diagnostics::trace(const Subject& subject, Pixel pixel, const SampleChoice& choice) {
+  const auto ready = scene(subject);
+  const LeafNames names(ready, &ready->leaf_names());
+  return pixel_trace(ready->world(), names, subject.settings, pixel, choice,
+                     {most_rays_recorded, [this] { return stopping_.load(); }});
+}
+
+void Diagnostics::stop() {
+  stopping_ = true;
+  background_.stop();
+}
+
 // Maps. ----------------------------------------------------------------------------------------------------
 
 std::shared_ptr<Diagnostics::InMaking<GrowingMap>> Diagnostics::map_in_making(const Subject& subject,

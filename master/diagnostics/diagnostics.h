@@ -9,6 +9,7 @@
 
 #include "master/diagnostics/background.h"
 #include "master/diagnostics/growing_map.h"
+#include "master/diagnostics/pixel_trace.h"
 #include "master/diagnostics/shelf.h"
 #include "master/diagnostics/statistics.h"
 #include "master/diagnostics/world_cache.h"
@@ -21,6 +22,8 @@ struct Subject {
   SharedBytes scene;       // encode_scene()
   RenderSettings settings;
 };
+
+constexpr std::size_t most_rays_recorded = 20'000;  // of a trace
 
 /// Something that is being made, or was.
 template <class Thing>
@@ -53,6 +56,12 @@ class Diagnostics {
   /// Builds it unless it is here. Throws what the scene's decoding throws.
   std::shared_ptr<const ReadyScene> scene(const Subject& subject);
 
+  /// At once, with at most so many rays. Throws SettingsError for what the picture has not got.
+  PixelTrace trace(const Subject& subject, Pixel pixel, const SampleChoice& choice);
+
+  /// All that is in work ends within a few hundred rays, and nothing more is made.
+  void stop();
+
   /// One part of what is being made, on the calling thread; false: there is nothing to do.
   bool work_once() { return background_.work_once(); }
 
@@ -80,6 +89,7 @@ class Diagnostics {
 
   std::shared_ptr<InMaking<GrowingMap>> map_in_making(const Subject& subject, const MapRequest& request);
 
+  std::atomic<bool> stopping_{false};
   WorldCache worlds_;
   Shelf<Key<MapRequest>, InMaking<GrowingMap>> maps_;
   Shelf<Key<Nothing>, InMaking<GrowingStatistics>> statistics_;

@@ -76,9 +76,40 @@ ApiResponse show_scene(const Call& call) {
   return shown(scene_view(*call.doors.diagnostics.scene(subject)));
 }
 
+// The rays behind a pixel. ---------------------------------------------------------------------------------
+
+std::uint32_t coordinate_in(const Call& call, const std::string& name) {
+  const auto value = whole_in(call, name);
+  if (!value) throw ApiError(400, "x and y say which pixel is traced; " + name + " is missing");
+  return *value;
+}
+
+PixelTrace trace_of(const Call& call, const Subject& subject) try {
+  const Pixel pixel{coordinate_in(call, "x"), coordinate_in(call, "y")};
+  const SampleChoice choice = sample_choice(text_in(call, "sample").value_or("0"), subject.settings);
+  return call.doors.diagnostics.trace(subject, pixel, choice);
+} catch (const SettingsError& error) {
+  throw ApiError(400, error.what());
+}
+
+ApiResponse show_trace(const Call& call) {
+  enum class Format { json, svg, text };
+  const auto format = choice_in(call, "format", "json", "json, svg or text",
+                                [](const std::string& text) -> std::optional<Format> {
+                                  if (text == "json") return Format::json;
+                                  if (text == "svg") return Format::svg;
+                                  return text == "text" ? std::optional(Format::text) : std::nullopt;
+                                });
+  const PixelTrace trace = trace_of(call, job_subject(call.doors.farm, job_id(call)).subject);
+  if (format == Format::svg) return {200, "image/svg+xml", svg_of(trace)};
+  if (format == Format::text) return {200, "text/plain; charset=utf-8", text_of(trace)};
+  return shown(to_json(trace));
+}
+
 constexpr Route routes[]{
     {"GET", "/api/v1/jobs/{id}/statistics", show_statistics, Work::picture},
     {"GET", "/api/v1/jobs/{id}/scene", show_scene, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/trace", show_trace, Work::trace},
 };
 
 }  // namespace

@@ -99,7 +99,8 @@ TEST_F(DiagnosticsApi, AMapIsTheLocalOneBeforeWhileAndAfterTheJobIsRendered) {
   farm.add_renderer("pc", 1);
   EXPECT_EQ(made(target_of(job, "/maps/all-rays?format=csv&compat=1")).body.text(),
             local_csv(random_job(), {map_named("all-rays"), {}, true}));
-  farm.add_renderer("pc");
+  farm.add_renderer("pc2");
+  farm.run([](Farm& f, FarmTime now) { f.drain("pc", now); });
   while (get_json(target_of(job))["state"] != "done") std::this_thread::yield();
   EXPECT_EQ(made(target_of(job, "/maps/normal?format=csv&reduce=closest")).body.text(),
             local_csv(random_job(), {map_named("normal"), Reduction::closest}));
@@ -208,6 +209,48 @@ TEST_F(DiagnosticsApi, AJobNobodyHasBegunHasStatisticsToo) {
 TEST_F(DiagnosticsApi, TheSceneIsTheOneThatWasSubmitted) {
   const json scene = get_json(target_of(submit(), "/scene"));
   EXPECT_EQ(scene["solids"].size(), leaf_names(random_scene(5)).size());
+}
+
+TEST_F(DiagnosticsApi, TheRaysOfAPixelAreTheLocalOnes) {
+  const JobSpec spec = random_job();
+  const World world(decode_scene(*spec.scene_bytes));
+  const auto names = std::make_shared<std::vector<std::string>>(leaf_names(world.scene()));
+  const JobId job = submit(spec);
+  for (const char* sample : {"0", "3", "all", "centre"}) {
+    const PixelTrace local =
+        pixel_trace(world, names, spec.settings, {40, 41}, sample_choice(sample, spec.settings));
+    const std::string target = target_of(job, std::string("/trace?x=40&y=41&sample=") + sample);
+    EXPECT_EQ(get_json(target), json::parse(to_json(local).dump()));
+    EXPECT_EQ(get(target + "&format=svg").body.text(), svg_of(local));
+    EXPECT_EQ(get(target + "&format=text").body.text(), text_of(local));
+  }
+  EXPECT_EQ(get_json(target_of(job, "/trace?x=40&y=41")),
+            get_json(target_of(job, "/trace?x=40&y=41&sample=0")));
+}
+
+TEST_F(DiagnosticsApi, APixelThatIsNotThereIsNamed) {
+  const JobId job = submit();
+  expect_error(target_of(job, "/trace?x=96&y=0"), 400, "95,79");
+  expect_error(target_of(job, "/trace?x=1"), 400, "y is missing");
+  expect_error(target_of(job, "/trace?x=1&y=-1"), 400, "whole number");
+  expect_error(target_of(job, "/trace?x=1&y=1&sample=4"), 400, "from 0 to 3");
+  expect_error(target_of(job, "/trace?x=1&y=1&format=png"), 400, "svg");
+  farm.run([&](Farm& f, FarmTime now) { f.cancel(job, now); });
+  expect_error(target_of(job, "/trace?x=1&y=1"), 409, "was cancelled");
+}
+
+TEST_F(DiagnosticsApi, ASampleOfVeryManyRaysIsCut) {
+  Scene scene = random_scene(5);
+  for (Material& material : scene.materials) material.transmission = material.specular = 1;
+  const SceneData data = scene_data(scene);
+  JobSpec spec = random_job();
+  spec.scene_hash = data.hash, spec.scene_bytes = data.bytes;
+  spec.settings.max_depth = 100, spec.settings.min_importance = 0;
+  const JobId job = submit(spec);
+  bool cut = false;
+  for (int x = 0; x < 96 && !cut; x += 5)
+    cut = get_json(target_of(job, "/trace?sample=all&y=40&x=" + std::to_string(x)))["truncated"];
+  EXPECT_TRUE(cut);
 }
 
 TEST_F(DiagnosticsApi, AMapIsALayerForThoseWhoWatchIt) {
