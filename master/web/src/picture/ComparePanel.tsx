@@ -2,7 +2,19 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { ApiError, getJson } from "../app/api";
 import { layer, selectedJob } from "../app/state";
-import { comparison, compares, currentEntry, flipped, metric, reference, referenceEntry, setReference, toggleComparison, toggleFlip } from "./compare";
+import {
+  comparison,
+  compares,
+  currentEntry,
+  flipped,
+  metric,
+  reference,
+  referenceEntry,
+  setReference,
+  toggleComparison,
+  toggleFlip,
+  wipeAt,
+} from "./compare";
 import { metricNames, metrics, type Errors, type Metric } from "./difference";
 import { errorsBetween } from "./figures";
 import { plain } from "./format";
@@ -57,7 +69,16 @@ function PictureFigures() {
   const told = answer.value;
   if (told === null) return <p class="quiet">…</p>;
   if (typeof told === "string") return <p class="bad">{told}</p>;
-  return <Figures figures={[["RMSE", told.rmse], ["MAE", told.mae], ["max", told.max], ["ꟻLIP", told.flip]]} />;
+  return (
+    <Figures
+      figures={[
+        ["RMSE", told.rmse],
+        ["MAE", told.mae],
+        ["max", told.max],
+        ["ꟻLIP", told.flip],
+      ]}
+    />
+  );
 }
 
 function MapFigures() {
@@ -65,11 +86,20 @@ function MapFigures() {
     const [a, b] = [currentEntry.value, referenceEntry.value];
     return a && b ? errorsBetween(a, b) : null;
   };
-  const errors = useSteady(() => [currentEntry.value?.revision.value, referenceEntry.value?.revision.value], both);
+  const errors = useSteady(
+    () => [currentEntry.value?.revision.value, referenceEntry.value?.revision.value],
+    both,
+  );
   if (!errors) return <p class="quiet">Both maps must be there, and of one size.</p>;
   return (
     <>
-      <Figures figures={[["RMSE", errors.rmse], ["MAE", errors.mae], ["max", errors.max]]} />
+      <Figures
+        figures={[
+          ["RMSE", errors.rmse],
+          ["MAE", errors.mae],
+          ["max", errors.max],
+        ]}
+      />
       {errors.apart > 0 && <p class="quiet">{plain(errors.apart)} values are a number in one map only.</p>}
     </>
   );
@@ -81,16 +111,46 @@ function Ways() {
   return (
     <>
       <div class="buttons">
-        <button aria-pressed={flipped.value} title="Space; hold Shift to look only" onClick={toggleFlip}>Flip</button>
-        <button aria-pressed={comparison.value === "wipe"} title="W" onClick={() => toggleComparison("wipe")}>Wipe</button>
-        <button aria-pressed={comparison.value === "difference"} title="X" onClick={() => toggleComparison("difference")}>Difference</button>
+        <button aria-pressed={flipped.value} title="Space; hold Shift to look only" onClick={toggleFlip}>
+          Flip
+        </button>
+        <button aria-pressed={comparison.value === "wipe"} title="W" onClick={() => toggleComparison("wipe")}>
+          Wipe
+        </button>
+        <button
+          aria-pressed={comparison.value === "difference"}
+          title="X"
+          onClick={() => toggleComparison("difference")}
+        >
+          Difference
+        </button>
       </div>
+      {comparison.value === "wipe" && (
+        <div class="line">
+          <label for="compare-wipe">Wipe at</label>
+          <input
+            id="compare-wipe"
+            type="range"
+            min={0}
+            max={1}
+            step={0.01}
+            value={wipeAt.value}
+            onInput={(event) => (wipeAt.value = Number(event.currentTarget.value))}
+          />
+        </div>
+      )}
       {comparison.value === "difference" && (
         <div class="line">
           <label for="compare-metric">Metric</label>
-          <select id="compare-metric" value={metric.value} onChange={(event) => (metric.value = event.currentTarget.value as Metric)}>
+          <select
+            id="compare-metric"
+            value={metric.value}
+            onChange={(event) => (metric.value = event.currentTarget.value as Metric)}
+          >
             {fitting.map((each) => (
-              <option key={each} value={each}>{metricNames[each]}</option>
+              <option key={each} value={each}>
+                {metricNames[each]}
+              </option>
             ))}
           </select>
         </div>
@@ -106,19 +166,21 @@ export function ComparePanel() {
   if (!compares.value || !other)
     return (
       <Section title="Compare">
-        <p class="quiet help">Choose a reference in the history (ref, or Shift+digit).</p>
+        <p class="quiet hint">Choose a reference in the history (ref, or Shift+digit).</p>
       </Section>
     );
   return (
     <Section title="Compare" aside={`#${job.id} with #${other.id}`}>
       <Ways />
       {layer.value.layer === "picture" ? <PictureFigures /> : <MapFigures />}
-      <p class="help">
+      <p class="hint">
         <span class="quiet">#{job.id} has </span>
         <Changes changes={changesBetween(other, job)} none="the same settings" />
       </p>
       <div class="buttons">
-        <button title="Shift+X" onClick={() => setReference(null)}>No reference</button>
+        <button title="Shift+X" onClick={() => setReference(null)}>
+          No reference
+        </button>
       </div>
     </Section>
   );

@@ -1,5 +1,15 @@
-import { adjust, display, gridShown, initialDisplay, shownMap, tones, valuesShown, type Display, type Tone } from "./display";
-import { normalize, resetDisplay } from "./picture_actions";
+import {
+  adjust,
+  display,
+  gridShown,
+  initialDisplay,
+  shownMap,
+  tones,
+  valuesShown,
+  type Display,
+  type Tone,
+} from "./display";
+import { normalize, resetDisplay } from "./display_actions";
 import { Section } from "./Section";
 
 interface SliderProps {
@@ -29,12 +39,28 @@ function Slider({ title, keys, name, min, max, step }: SliderProps) {
         onInput={(event) => set(event.currentTarget.value)}
         onDblClick={() => adjust({ [name]: initialDisplay[name] })}
       />
-      <input id={`display-${name}`} type="number" step={step} value={value} onChange={(event) => set(event.currentTarget.value)} />
+      <input
+        id={`display-${name}`}
+        type="number"
+        step={step}
+        value={value}
+        onChange={(event) => set(event.currentTarget.value)}
+      />
     </div>
   );
 }
 
-function Check({ title, hint, checked, set }: { title: string; hint: string; checked: boolean; set: (on: boolean) => void }) {
+function Check({
+  title,
+  hint,
+  checked,
+  set,
+}: {
+  title: string;
+  hint: string;
+  checked: boolean;
+  set: (on: boolean) => void;
+}) {
   return (
     <label class="check" title={hint}>
       <input type="checkbox" checked={checked} onChange={(event) => set(event.currentTarget.checked)} />
@@ -55,9 +81,15 @@ export function DisplayPanel() {
           <Slider title="Gamma" keys="G" name="gamma" min={0.4} max={4} step={0.1} />
           <div class="line">
             <label for="display-tone">Tone</label>
-            <select id="display-tone" value={display.value.tone} onChange={(event) => adjust({ tone: event.currentTarget.value as Tone })}>
+            <select
+              id="display-tone"
+              value={display.value.tone}
+              onChange={(event) => adjust({ tone: event.currentTarget.value as Tone })}
+            >
               {Object.entries(tones).map(([tone, title]) => (
-                <option key={tone} value={tone}>{title}</option>
+                <option key={tone} value={tone}>
+                  {title}
+                </option>
               ))}
             </select>
           </div>
@@ -66,17 +98,41 @@ export function DisplayPanel() {
       <div class="checks">
         {isPicture && (
           <>
-            <Check title="clip" hint="To 0 to 1 before the tone curve (U)" checked={display.value.clip} set={(clip) => adjust({ clip })} />
-            <Check title="zebra" hint="Stripes where values are outside 0 to 1 (Z)" checked={display.value.zebra} set={(zebra) => adjust({ zebra })} />
+            <Check
+              title="clip"
+              hint="To 0 to 1 before the tone curve (U)"
+              checked={display.value.clip}
+              set={(clip) => adjust({ clip })}
+            />
+            <Check
+              title="zebra"
+              hint="Stripes where values are outside 0 to 1 (Z)"
+              checked={display.value.zebra}
+              set={(zebra) => adjust({ zebra })}
+            />
           </>
         )}
-        <Check title="values" hint="Printed in large pixels (P)" checked={valuesShown.value} set={(on) => (valuesShown.value = on)} />
-        <Check title="grid" hint="Between large pixels (Shift+P)" checked={gridShown.value} set={(on) => (gridShown.value = on)} />
+        <Check
+          title="values"
+          hint="Printed in large pixels (P)"
+          checked={valuesShown.value}
+          set={(on) => (valuesShown.value = on)}
+        />
+        <Check
+          title="grid"
+          hint="Between large pixels (Shift+P)"
+          checked={gridShown.value}
+          set={(on) => (gridShown.value = on)}
+        />
       </div>
       {isPicture && (
         <div class="buttons">
-          <button title="Lowest value dark, highest bright (N)" onClick={normalize}>Normalise</button>
-          <button title="Shift+R" onClick={resetDisplay}>Reset</button>
+          <button title="Lowest value dark, highest bright (N)" onClick={normalize}>
+            Normalise
+          </button>
+          <button title="Shift+R" onClick={resetDisplay}>
+            Reset
+          </button>
         </div>
       )}
     </Section>

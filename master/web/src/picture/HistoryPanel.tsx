@@ -28,12 +28,28 @@ function Result({ job, slot }: { job: Job; slot: number }) {
       <button class="plain result" title={`Show job ${job.id} (${slot})`} onClick={() => openJob(job.id)}>
         <span class="slot">{slot <= 5 ? slot : ""}</span>
         <span class="id">#{job.id}</span>
-        {isCurrent ? <span class="quiet">shown</span> : <Changes changes={changesBetween(current, job)} none="same settings" />}
+        {isCurrent ? (
+          <span class="quiet">shown</span>
+        ) : (
+          <Changes changes={changesBetween(current, job)} none="same settings" />
+        )}
       </button>
-      <button class="plain" aria-pressed={isPinned} aria-label={`Keep job ${job.id} up to date`} title="Keep up to date while others are shown" onClick={() => togglePin(job.id)}>
+      <button
+        class="plain"
+        aria-pressed={isPinned}
+        aria-label={`Keep job ${job.id} up to date`}
+        title="Keep up to date while others are shown"
+        onClick={() => togglePin(job.id)}
+      >
         pin
       </button>
-      <button class="plain" aria-pressed={isReference} aria-label={`Compare with job ${job.id}`} title={`Compare with this (Shift+${slot})`} onClick={() => setReference(isReference ? null : job.id)}>
+      <button
+        class="plain"
+        aria-pressed={isReference}
+        aria-label={`Compare with job ${job.id}`}
+        title={`Compare with this (Shift+${slot})`}
+        onClick={() => setReference(isReference ? null : job.id)}
+      >
         ref
       </button>
     </li>
@@ -44,14 +60,23 @@ function Result({ job, slot }: { job: Job; slot: number }) {
 export function HistoryPanel() {
   if (!selectedJob.value) return null;
   const length = (
-    <label class="history-length" title="How many results are listed" onClick={(event) => event.stopPropagation()}>
+    <label
+      class="history-length"
+      title="How many results are listed"
+      onClick={(event) => event.stopPropagation()}
+    >
       last
       <input
         type="number"
         min={5}
         max={50}
         value={historyLength.value}
-        onChange={(event) => (historyLength.value = Math.min(50, Math.max(5, Math.round(Number(event.currentTarget.value)) || 5)))}
+        onChange={(event) =>
+          (historyLength.value = Math.min(
+            50,
+            Math.max(5, Math.round(Number(event.currentTarget.value)) || 5),
+          ))
+        }
       />
     </label>
   );

@@ -3,7 +3,7 @@ import { getJson } from "../app/api";
 import { count, duration } from "../app/format";
 import { selectedId, selectedJob, tellError } from "../app/state";
 import { plain } from "./format";
-import { counterTitles, hitsByName, type JobStatistics } from "./job_statistics";
+import { hitsByName, titlesOf, type JobStatistics } from "./job_statistics";
 import { Section } from "./Section";
 
 const told = signal<{ job: number; statistics: JobStatistics } | null>(null);
@@ -13,7 +13,11 @@ const asking = signal(false);
 async function ask(job: number): Promise<void> {
   asking.value = true;
   try {
-    for (let path = `/jobs/${job}/statistics`; selectedId.value === job; path = `/jobs/${job}/statistics?wait=1`) {
+    for (
+      let path = `/jobs/${job}/statistics`;
+      selectedId.value === job;
+      path = `/jobs/${job}/statistics?wait=1`
+    ) {
       const statistics = await getJson<JobStatistics>(path);
       told.value = { job, statistics };
       if (statistics.detail.state !== "making") return;
@@ -27,13 +31,17 @@ function CounterTable({ statistics }: { statistics: JobStatistics }) {
   return (
     <table class="figures">
       <thead>
-        <tr><th scope="col">rays</th><th scope="col">total</th><th scope="col">a pixel</th></tr>
+        <tr>
+          <th scope="col">rays</th>
+          <th scope="col">total</th>
+          <th scope="col">a pixel</th>
+        </tr>
       </thead>
       <tbody>
-        {counterTitles.map(([name, title]) => (
+        {titlesOf(statistics.counters).map(([name, title]) => (
           <tr key={name} data-counter={name}>
             <th scope="row">{title}</th>
-            <td>{count(statistics.counters[name])}</td>
+            <td>{count(statistics.counters[name]!)}</td>
             <td>{plain(statistics.mean_per_pixel[name] ?? 0, 3)}</td>
           </tr>
         ))}
@@ -44,8 +52,10 @@ function CounterTable({ statistics }: { statistics: JobStatistics }) {
 
 function Detail({ statistics }: { statistics: JobStatistics }) {
   const { detail, counters } = statistics;
-  if (detail.state === "unavailable") return <p class="quiet">{detail.message || "Hits and tests of this job cannot be counted any more."}</p>;
-  if (detail.state === "making") return <progress max={1} value={detail.progress ?? 0} aria-label="Hits and tests being counted" />;
+  if (detail.state === "unavailable")
+    return <p class="quiet">{detail.message || "Hits and tests of this job cannot be counted any more."}</p>;
+  if (detail.state === "making")
+    return <progress max={1} value={detail.progress ?? 0} aria-label="Hits and tests being counted" />;
   const hits = hitsByName(detail.hits ?? []);
   const most = hits[0]?.hits ?? 1;
   return (
@@ -55,7 +65,7 @@ function Detail({ statistics }: { statistics: JobStatistics }) {
           {Object.entries(detail.tests ?? {}).map(([name, tests]) => (
             <tr key={name}>
               <th scope="row">{name.replaceAll("_", " ")} a ray</th>
-              <td>{plain(tests / Math.max(1, counters.rays), 4)}</td>
+              <td>{plain(tests / Math.max(1, counters.rays ?? 1), 4)}</td>
             </tr>
           ))}
         </tbody>
@@ -65,7 +75,10 @@ function Detail({ statistics }: { statistics: JobStatistics }) {
         {hits.slice(0, 40).map((each) => (
           <li key={each.name} title={each.solids > 1 ? `${each.solids} solids` : undefined}>
             <span class="hit-bar" style={{ width: `${(100 * each.hits) / most}%` }} />
-            <span class="name">{each.name}{each.solids > 1 && <span class="quiet"> × {each.solids}</span>}</span>
+            <span class="name">
+              {each.name}
+              {each.solids > 1 && <span class="quiet"> × {each.solids}</span>}
+            </span>
             <span class="number">{count(each.hits)}</span>
           </li>
         ))}
@@ -82,16 +95,24 @@ export function JobStatisticsPanel() {
   return (
     <Section title="Statistics of the job">
       <div class="buttons">
-        <button disabled={asking.value} onClick={() => void ask(job.id).catch(tellError)}>{statistics ? "Count again" : "Count"}</button>
+        <button disabled={asking.value} onClick={() => void ask(job.id).catch(tellError)}>
+          {statistics ? "Count again" : "Count"}
+        </button>
       </div>
       {statistics && (
         <>
           <CounterTable statistics={statistics} />
           <table class="figures">
             <tbody>
-              <tr><th scope="row">samples a pixel</th><td>{plain(statistics.samples_per_pixel, 4)}</td></tr>
+              <tr>
+                <th scope="row">samples a pixel</th>
+                <td>{plain(statistics.samples_per_pixel, 4)}</td>
+              </tr>
               {Object.entries(statistics.seconds).map(([phase, seconds]) => (
-                <tr key={phase}><th scope="row">{phase === "threads" ? "on all threads" : phase}</th><td>{duration(seconds)}</td></tr>
+                <tr key={phase}>
+                  <th scope="row">{phase === "threads" ? "on all threads" : phase}</th>
+                  <td>{duration(seconds)}</td>
+                </tr>
               ))}
             </tbody>
           </table>

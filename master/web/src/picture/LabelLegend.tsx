@@ -8,7 +8,8 @@ import type { Entry } from "./store";
 function shares(entry: Entry | null): Map<number, number> {
   const counts = new Map<number, number>();
   entry?.data?.values.forEach((value, i) => {
-    if (entry.data!.there[i] !== missing && Number.isFinite(value)) counts.set(value, (counts.get(value) ?? 0) + 1);
+    if (entry.data!.there[i] !== missing && Number.isFinite(value))
+      counts.set(value, (counts.get(value) ?? 0) + 1);
   });
   return counts;
 }

@@ -3,11 +3,8 @@ import type { Reduction } from "../app/types";
 import { currentEntry } from "./compare";
 import { shownMap } from "./display";
 import { results, step } from "./history";
-import { chooseLayer } from "./picture_actions";
+import { chooseLayer } from "./display_actions";
 import { save } from "./save";
-import { zoomText } from "./view";
-import { currentView, fit, zoomBy, zoomTo } from "./view_state";
-import { zoomStep } from "./gestures";
 
 const reductions: Reduction[] = ["majority", "mean", "closest", "median"];
 
@@ -18,7 +15,8 @@ function Tab({ name, title, help }: { name: string; title: string; help: string 
     if (by === 0) return;
     event.preventDefault();
     const tabs = [...(event.currentTarget as HTMLElement).parentElement!.querySelectorAll("button")];
-    const next = tabs[(tabs.indexOf(event.currentTarget as HTMLButtonElement) + by + tabs.length) % tabs.length]!;
+    const next =
+      tabs[(tabs.indexOf(event.currentTarget as HTMLButtonElement) + by + tabs.length) % tabs.length]!;
     next.click();
     next.focus();
   };
@@ -50,10 +48,14 @@ function MapChoices() {
           <select
             aria-label="Reduction"
             value={layer.value.reduce}
-            onChange={(event) => (layer.value = { ...layer.peek(), reduce: event.currentTarget.value as Reduction })}
+            onChange={(event) =>
+              (layer.value = { ...layer.peek(), reduce: event.currentTarget.value as Reduction })
+            }
           >
             {reductions.map((each) => (
-              <option key={each} value={each}>{each}</option>
+              <option key={each} value={each}>
+                {each}
+              </option>
             ))}
           </select>
         </label>
@@ -76,24 +78,27 @@ function HistorySteps() {
   const at = results.value.findIndex((job) => job.id === currentEntry.value?.watch.job);
   return (
     <span class="group" role="group" aria-label="History">
-      <button class="plain" aria-label="Previous result" title="Previous result of the scene (A)" disabled={at < 0 || at + 1 >= results.value.length} onClick={() => step(1)}>
+      <button
+        class="plain"
+        aria-label="Previous result"
+        title="Previous result of the scene (A)"
+        disabled={at < 0 || at + 1 >= results.value.length}
+        onClick={() => step(1)}
+      >
         «
       </button>
-      <span class="history-place" title="Place in the history, newest first">{at < 0 ? "–" : `${at + 1}/${results.value.length}`}</span>
-      <button class="plain" aria-label="Next result" title="Next result of the scene (D)" disabled={at <= 0} onClick={() => step(-1)}>
+      <span class="history-place" title="Place in the history, newest first">
+        {at < 0 ? "–" : `${at + 1}/${results.value.length}`}
+      </span>
+      <button
+        class="plain"
+        aria-label="Next result"
+        title="Next result of the scene (D)"
+        disabled={at <= 0}
+        onClick={() => step(-1)}
+      >
         »
       </button>
-    </span>
-  );
-}
-
-function ZoomTools() {
-  return (
-    <span class="group" role="group" aria-label="Zoom">
-      <button class="plain" aria-label="Zoom out" title="Zoom out (-)" onClick={() => zoomBy(1 / zoomStep)}>−</button>
-      <button class="plain zoom-level" title="Zoom to 100 % (0)" onClick={() => zoomTo(1)}>{zoomText(currentView.value.zoom)}</button>
-      <button class="plain" aria-label="Zoom in" title="Zoom in (+)" onClick={() => zoomBy(zoomStep)}>+</button>
-      <button class="plain" title="Fit the picture into the window (F)" onClick={fit}>fit</button>
     </span>
   );
 }
@@ -103,10 +108,21 @@ function SaveTools() {
   const what = map ? map.title : "Picture";
   return (
     <span class="group" role="group" aria-label="Save">
-      <span class="quiet">save</span>
-      <button class="plain" title={`${what} in its colours as PNG`} onClick={() => save("png")}>PNG</button>
-      <button class="plain" title={`${what}: the numbers as EXR`} onClick={() => save("exr")}>EXR</button>
-      {map && <button class="plain" title={`${what}: the numbers as a table, one line an image row`} onClick={() => save("csv")}>CSV</button>}
+      <button class="plain" title={`${what} in its colours: save as PNG`} onClick={() => save("png")}>
+        PNG
+      </button>
+      <button class="plain" title={`${what}: save the numbers as EXR`} onClick={() => save("exr")}>
+        EXR
+      </button>
+      {map && (
+        <button
+          class="plain"
+          title={`${what}: save the numbers as a table, one line an image row`}
+          onClick={() => save("csv")}
+        >
+          CSV
+        </button>
+      )}
     </span>
   );
 }
@@ -123,7 +139,6 @@ export function LayerBar() {
       <div class="layer-tools">
         <MapChoices />
         <HistorySteps />
-        <ZoomTools />
         <SaveTools />
       </div>
     </div>

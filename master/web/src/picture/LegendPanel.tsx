@@ -30,7 +30,11 @@ function Ticks({ map, range, shown }: { map: MapEntry; range: Range; shown: Show
       {ticks.map((value) => {
         const at = positionOf(value, range, shown.log, step, map.scale) * 100;
         const edge = at < 8 ? "first" : at > 92 ? "last" : "";
-        return <span key={value} class={edge} style={{ left: `${at}%` }}>{text(value)}</span>;
+        return (
+          <span key={value} class={edge} style={{ left: `${at}%` }}>
+            {text(value)}
+          </span>
+        );
       })}
     </div>
   );
@@ -55,8 +59,10 @@ function NormalBall() {
     <div class="normal-ball">
       <canvas ref={canvas} width={96} height={96} role="img" aria-label="Colours of normals on a ball" />
       <p class="quiet">
-        red: x, rightwards<br />
-        green: y, upwards<br />
+        red: x, rightwards
+        <br />
+        green: y, upwards
+        <br />
         blue: z, towards the usual camera
       </p>
     </div>
@@ -67,7 +73,8 @@ const modes: Record<RangeMode, string> = { auto: "all values", percentile: "1 % 
 
 function RangeChoice({ map, range, shown }: { map: MapEntry; range: Range; shown: Shown }) {
   const set = (end: "low" | "high", text: string): void => {
-    if (text !== "" && Number.isFinite(Number(text))) adjustMap(map, { ...range, mode: "fixed", [end]: Number(text) });
+    if (text !== "" && Number.isFinite(Number(text)))
+      adjustMap(map, { ...range, mode: "fixed", [end]: Number(text) });
   };
   const shortened = (value: number): number => Number(value.toPrecision(5));
   return (
@@ -80,14 +87,28 @@ function RangeChoice({ map, range, shown }: { map: MapEntry; range: Range; shown
           onChange={(event) => adjustMap(map, { ...range, mode: event.currentTarget.value as RangeMode })}
         >
           {Object.entries(modes).map(([mode, title]) => (
-            <option key={mode} value={mode}>{title}</option>
+            <option key={mode} value={mode}>
+              {title}
+            </option>
           ))}
         </select>
       </div>
       <div class="line range-ends">
-        <input type="number" step="any" aria-label="Lowest value" value={shortened(range.low)} onChange={(event) => set("low", event.currentTarget.value)} />
+        <input
+          type="number"
+          step="any"
+          aria-label="Lowest value"
+          value={shortened(range.low)}
+          onChange={(event) => set("low", event.currentTarget.value)}
+        />
         <span class="quiet">to</span>
-        <input type="number" step="any" aria-label="Highest value" value={shortened(range.high)} onChange={(event) => set("high", event.currentTarget.value)} />
+        <input
+          type="number"
+          step="any"
+          aria-label="Highest value"
+          value={shortened(range.high)}
+          onChange={(event) => set("high", event.currentTarget.value)}
+        />
       </div>
     </>
   );
@@ -97,13 +118,23 @@ function ScaleChoices({ map, shown }: { map: MapEntry; shown: Shown }) {
   return (
     <div class="line">
       <label for="map-palette">Colours</label>
-      <select id="map-palette" value={shown.palette} onChange={(event) => adjustMap(map, { palette: Number(event.currentTarget.value) })}>
+      <select
+        id="map-palette"
+        value={shown.palette}
+        onChange={(event) => adjustMap(map, { palette: Number(event.currentTarget.value) })}
+      >
         {palettes[map.scale].map((palette, i) => (
-          <option key={palette.name} value={i}>{palette.name}</option>
+          <option key={palette.name} value={i}>
+            {palette.name}
+          </option>
         ))}
       </select>
       <label class="check" title="Shift+C">
-        <input type="checkbox" checked={shown.log} onChange={(event) => adjustMap(map, { log: event.currentTarget.checked })} />
+        <input
+          type="checkbox"
+          checked={shown.log}
+          onChange={(event) => adjustMap(map, { log: event.currentTarget.checked })}
+        />
         log
       </label>
     </div>
@@ -120,19 +151,25 @@ export function LegendPanel() {
   const range = rangeOf(entry, map, shown);
   return (
     <Section title="Legend" aside={map.unit}>
-      <p class="quiet help">{map.help}</p>
+      <p class="quiet hint">{map.help}</p>
       {map.scale === "normal" && <NormalBall />}
       {map.scale === "label" && <LabelLegend entry={entry} />}
       {palette && (
         <>
-          <div class="legend" role="img" aria-label={`Colours from ${plain(range.low)} to ${plain(range.high)} ${map.unit}`}>
+          <div
+            class="legend"
+            role="img"
+            aria-label={`Colours from ${plain(range.low)} to ${plain(range.high)} ${map.unit}`}
+          >
             <Bar palette={palette} />
             <Ticks map={map} range={range} shown={shown} />
           </div>
           <ScaleChoices map={map} shown={shown} />
           <RangeChoice map={map} range={range} shown={shown} />
           <div class="buttons">
-            <button title="Shift+R" onClick={() => resetMap(map)}>Reset</button>
+            <button title="Shift+R" onClick={() => resetMap(map)}>
+              Reset
+            </button>
           </div>
         </>
       )}

@@ -19,6 +19,7 @@ import { startCamera } from "./view_angle";
 import { startView } from "./view_state";
 import { ValuesPanel } from "./ValuesPanel";
 import "./picture.css";
+import "./side.css";
 
 /// Asks for what is shown, what it is compared with, and what is pinned.
 const startWanting = (): (() => void) =>
@@ -35,7 +36,11 @@ export function PictureArea() {
     return () => stops.forEach((stop) => stop());
   }, []);
   return (
-    <section class="picture" aria-label="Picture" data-layer-state={shownEntry.value?.message.value?.state ?? "none"}>
+    <section
+      class="picture"
+      aria-label="Picture"
+      data-layer-state={shownEntry.value?.message.value?.state ?? "none"}
+    >
       <LayerBar />
       <div class="picture-middle">
         <PictureCanvas />

@@ -1,6 +1,9 @@
 import { probed, selectedJob } from "../app/state";
 import { currentEntry, reference, shownEntry, showsReference } from "./compare";
+import { zoomStep } from "./gestures";
 import { pointedAt, readoutAt } from "./readout";
+import { zoomText } from "./view";
+import { currentView, fit, zoomBy, zoomTo } from "./view_state";
 
 function Values() {
   const pixel = pointedAt();
@@ -9,7 +12,7 @@ function Values() {
   return (
     <>
       <span class="place" data-x={readout.pixel.x} data-y={readout.pixel.y}>
-        x {readout.pixel.x}  y {readout.pixel.y}
+        x {readout.pixel.x} y {readout.pixel.y}
       </span>
       <span class="values">{readout.values}</span>
       {readout.preview && <span class="quiet">preview</span>}
@@ -35,6 +38,25 @@ function standing(): string {
   return message.state === "failed" ? "failed" : "";
 }
 
+function ZoomTools() {
+  return (
+    <span class="zoom-tools" role="group" aria-label="Zoom">
+      <button class="plain" aria-label="Zoom out" title="Zoom out (-)" onClick={() => zoomBy(1 / zoomStep)}>
+        −
+      </button>
+      <button class="plain zoom-level" title="Zoom to 100 % (0)" onClick={() => zoomTo(1)}>
+        {zoomText(currentView.value.zoom)}
+      </button>
+      <button class="plain" aria-label="Zoom in" title="Zoom in (+)" onClick={() => zoomBy(zoomStep)}>
+        +
+      </button>
+      <button class="plain" title="Fit the picture into the window (F)" onClick={fit}>
+        fit
+      </button>
+    </span>
+  );
+}
+
 export function StatusLine() {
   const job = showsReference.value ? reference.value : selectedJob.value;
   const step = currentEntry.value?.data?.step ?? 1;
@@ -48,11 +70,15 @@ export function StatusLine() {
         <span class="facts">
           <span>{standing()}</span>
           {showsReference.value && <strong>reference</strong>}
-          {step > 1 && <span title="The picture is so large that not every pixel is sent">every {step}th pixel</span>}
-          <span>{job.settings.width} × {job.settings.height}</span>
+          {step > 1 && (
+            <span title="The picture is so large that not every pixel is sent">every {step}th pixel</span>
+          )}
+          <span>
+            {job.settings.width} × {job.settings.height}
+          </span>
           <span>{job.settings.spp} spp</span>
-          <span>{job.settings.sampler}</span>
           <span>#{job.id}</span>
+          <ZoomTools />
         </span>
       )}
     </div>

@@ -42,7 +42,7 @@ function drawHistograms(canvas: HTMLCanvasElement, histograms: Histogram[]): voi
   const most = Math.max(1, ...histograms.flatMap((each) => each.counts));
   const dark = theme.value === "dark";
   context.globalCompositeOperation = dark ? "lighter" : "multiply";
-  const colors = dark ? ["#c0392b", "#1e8449", "#2a5db0"] : ["#ff9a8f", "#8fdc9f", "#8fb8ff"];
+  const colors = dark ? ["#8c3028", "#286c3c", "#30528c"] : ["#ff9a8f", "#8fdc9f", "#8fb8ff"];
   histograms.forEach((histogram, c) => {
     context.fillStyle = histograms.length === 1 ? (dark ? "#8c97a5" : "#7c8794") : colors[c]!;
     histogram.counts.forEach((counted, i) => {
@@ -59,7 +59,13 @@ function HistogramView({ histograms, text }: { histograms: Histogram[]; text: (v
   const { low, high } = histograms[0]!;
   return (
     <figure class="histogram">
-      <canvas ref={canvas} width={512} height={112} role="img" aria-label={`Histogram from ${text(low)} to ${text(high)}`} />
+      <canvas
+        ref={canvas}
+        width={512}
+        height={112}
+        role="img"
+        aria-label={`Histogram from ${text(low)} to ${text(high)}`}
+      />
       <figcaption>
         <span>{text(low)}</span>
         <span>{text(high)}</span>
@@ -89,35 +95,47 @@ function Oddities({ figures, isMap }: { figures: Figures[]; isMap: boolean }) {
     [most((f) => f.absent), "not there yet"],
   ] as const;
   const told = parts.filter(([pixels]) => pixels > 0).map(([pixels, words]) => `${count(pixels)} ${words}`);
-  return told.length > 0 ? <p class={most((f) => f.nans) > 0 ? "bad" : "quiet"}>Pixels: {told.join(", ")}</p> : null;
+  return told.length > 0 ? (
+    <p class={most((f) => f.nans) > 0 ? "bad" : "quiet"}>Pixels: {told.join(", ")}</p>
+  ) : null;
 }
 
 /// Figures of what is shown: of the selection, or of all.
 export function ValuesPanel() {
   const map = shownMap.value;
-  const data = useSteady(
-    () => [shownEntry.value?.revision.value, selection.value, shownMap.value],
-    summary,
-  );
+  const data = useSteady(() => [shownEntry.value?.revision.value, selection.value, shownMap.value], summary);
   const area = selection.value;
-  const text = (value: number): string => (map?.unit === "seconds" && value >= 0 ? timeText(value) : plain(value, 4));
+  const text = (value: number): string =>
+    map?.unit === "seconds" && value >= 0 ? timeText(value) : plain(value, 4);
   if (map?.scale === "label") return null;
   const names = namesOf(map, data?.figures.length ?? 1);
   return (
-    <Section title="Values" aside={area ? `${area.width} × ${area.height} at ${area.x}, ${area.y}` : "whole picture"}>
+    <Section
+      title="Values"
+      aside={area ? `${area.width} × ${area.height} at ${area.x}, ${area.y}` : "whole picture"}
+    >
       {data && data.histograms.length > 0 && <HistogramView histograms={data.histograms} text={text} />}
       {data && (
         <table class="figures">
           {names.length > 1 && (
             <thead>
-              <tr><th />{names.map((name) => <th key={name} scope="col">{name}</th>)}</tr>
+              <tr>
+                <th />
+                {names.map((name) => (
+                  <th key={name} scope="col">
+                    {name}
+                  </th>
+                ))}
+              </tr>
             </thead>
           )}
           <tbody>
             {rowsFor(map, text).map(([title, of]) => (
               <tr key={title} data-figure={title}>
                 <th scope="row">{title}</th>
-                {data.figures.map((figures, c) => <td key={c}>{of(figures)}</td>)}
+                {data.figures.map((figures, c) => (
+                  <td key={c}>{of(figures)}</td>
+                ))}
               </tr>
             ))}
           </tbody>
@@ -126,11 +144,15 @@ export function ValuesPanel() {
       {data && <Oddities figures={data.figures} isMap={map !== null} />}
       {area ? (
         <div class="buttons">
-          <button title="Shift+A" onClick={() => (selection.value = null)}>Whole picture</button>
-          <button title="The selected values as a table" onClick={saveSelection}>Save CSV</button>
+          <button title="Shift+A" onClick={() => (selection.value = null)}>
+            Whole picture
+          </button>
+          <button title="The selected values as a table" onClick={saveSelection}>
+            Save CSV
+          </button>
         </div>
       ) : (
-        <p class="quiet help">Shift+drag selects a rectangle.</p>
+        <p class="quiet hint">Shift+drag selects a rectangle.</p>
       )}
     </Section>
   );

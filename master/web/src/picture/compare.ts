@@ -9,7 +9,9 @@ import { entryOf, type Entry } from "./store";
 export type Comparison = "off" | "wipe" | "difference";
 
 const referenceId = signal<number | null>(null);
-export const reference = computed<Job | null>(() => jobs.value.find((job) => job.id === referenceId.value) ?? null);
+export const reference = computed<Job | null>(
+  () => jobs.value.find((job) => job.id === referenceId.value) ?? null,
+);
 export const comparison = signal<Comparison>("off");
 export const metric = signal<Metric>("absolute");
 /// Where the wipe divides the screen, 0 to 1 from the left.
@@ -29,7 +31,9 @@ export const referenceWatch = computed<Watch | null>(() =>
   compares.value && reference.value ? { job: reference.value.id, ...layer.value } : null,
 );
 export const currentEntry = computed<Entry | null>(() => currentWatch.value && entryOf(currentWatch.value));
-export const referenceEntry = computed<Entry | null>(() => referenceWatch.value && entryOf(referenceWatch.value));
+export const referenceEntry = computed<Entry | null>(
+  () => referenceWatch.value && entryOf(referenceWatch.value),
+);
 /// What the screen shows when nothing is compared.
 export const shownEntry = computed<Entry | null>(() =>
   showsReference.value ? referenceEntry.value : currentEntry.value,

@@ -39,7 +39,8 @@ export function errorsOf(a: LayerData, b: LayerData, area: Rect): Errors {
     for (let x = area.x; x < area.x + area.width; ++x) {
       const i = y * a.width + x;
       if (a.there[i] === missing || b.there[i] === missing) continue;
-      for (let c = 0; c < a.channels; ++c) add(errors, a.values[i * a.channels + c]!, b.values[i * b.channels + c]!);
+      for (let c = 0; c < a.channels; ++c)
+        add(errors, a.values[i * a.channels + c]!, b.values[i * b.channels + c]!);
     }
   const n = Math.max(1, errors.compared);
   return { ...errors, rmse: Math.sqrt(errors.rmse / n), mae: errors.mae / n };

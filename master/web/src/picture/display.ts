@@ -56,7 +56,8 @@ export const shownMap = computed<MapEntry | null>(
 
 /// Of each map that was changed, by name.
 const shownByName = signal<Record<string, Shown>>({});
-export const shownOf = (entry: MapEntry): Shown => shownByName.value[entry.name] ?? initiallyShown(entry.scale);
+export const shownOf = (entry: MapEntry): Shown =>
+  shownByName.value[entry.name] ?? initiallyShown(entry.scale);
 export function adjustMap(entry: MapEntry, change: Partial<Shown>): void {
   shownByName.value = { ...shownByName.peek(), [entry.name]: { ...shownOf(entry), ...change } };
 }

@@ -1,7 +1,16 @@
 // What is on the screen now, from the state of the app: the parts that the painter paints.
 import type { Job } from "../app/types";
 import { selectedJob } from "../app/state";
-import { comparison, compares, currentEntry, metric, reference, referenceEntry, showsReference, wipeAt } from "./compare";
+import {
+  comparison,
+  compares,
+  currentEntry,
+  metric,
+  reference,
+  referenceEntry,
+  showsReference,
+  wipeAt,
+} from "./compare";
 import { display, gridShown, shownMap, shownOf } from "./display";
 import { errorsBetween, rangeOf } from "./figures";
 import { flipPicture } from "./flip";

@@ -75,7 +75,8 @@ export function attachGestures(target: HTMLElement, hands: Hands): () => void {
     hands.hover(p);
     target.classList.toggle("over-wipe", hands.overWipe(p));
     if (!last || !drag) return;
-    if (drag === "click or pan" && Math.hypot(p.x - start.x, p.y - start.y) >= threshold * density()) drag = "pan";
+    if (drag === "click or pan" && Math.hypot(p.x - start.x, p.y - start.y) >= threshold * density())
+      drag = "pan";
     if (drag === "pan") hands.pan({ x: p.x - last.x, y: p.y - last.y });
     else if (drag === "scrub") hands.scrub(p);
     else if (drag === "select") hands.select(start, p);

@@ -4,11 +4,17 @@ import { jobs, selectedId, selectedJob } from "../app/state";
 import { stored } from "../app/stored";
 import type { Job } from "../app/types";
 
-export const historyLength = stored("history", 8, (n) => Number.isInteger(n) && (n as number) >= 5 && (n as number) <= 50);
+export const historyLength = stored(
+  "history",
+  8,
+  (n) => Number.isInteger(n) && (n as number) >= 5 && (n as number) <= 50,
+);
 
 /// Jobs of the same name that have something to show, newest first; the job itself is always among them.
 export function resultsOf(all: readonly Job[], job: Job, most: number): Job[] {
-  const others = all.filter((other) => other.id !== job.id && other.name === job.name && other.pixels_done > 0);
+  const others = all.filter(
+    (other) => other.id !== job.id && other.name === job.name && other.pixels_done > 0,
+  );
   const newest = [...others, job].sort((a, b) => b.id - a.id).slice(0, most);
   return newest.includes(job) ? newest : [...newest.slice(0, most - 1), job];
 }
@@ -27,10 +33,18 @@ export interface Change {
 /// What of settings and parameters is another in `to`; the scene itself when that does not tell why it differs.
 export function changesBetween(from: Job, to: Job): Change[] {
   const of = (a: object, b: object): Change[] => {
-    const [before, after] = [new Map<string, unknown>(Object.entries(a)), new Map<string, unknown>(Object.entries(b))];
-    const text = (value: unknown): string => (value === undefined ? "–" : String(value as string | number | boolean));
+    const [before, after] = [
+      new Map<string, unknown>(Object.entries(a)),
+      new Map<string, unknown>(Object.entries(b)),
+    ];
+    const text = (value: unknown): string =>
+      value === undefined ? "–" : String(value as string | number | boolean);
     return [...new Set([...before.keys(), ...after.keys()])]
-      .map((name) => ({ name: name.replaceAll("_", " "), from: text(before.get(name)), to: text(after.get(name)) }))
+      .map((name) => ({
+        name: name.replaceAll("_", " "),
+        from: text(before.get(name)),
+        to: text(after.get(name)),
+      }))
       .filter((change) => change.from !== change.to);
   };
   const parameters = of(from.parameters, to.parameters);
@@ -56,5 +70,7 @@ export function choose(slot: number): void {
 /// Kept up to date although not shown, so that going there takes no time.
 export const pinned = signal<readonly number[]>([]);
 export function togglePin(id: number): void {
-  pinned.value = pinned.peek().includes(id) ? pinned.peek().filter((other) => other !== id) : [...pinned.peek(), id];
+  pinned.value = pinned.peek().includes(id)
+    ? pinned.peek().filter((other) => other !== id)
+    : [...pinned.peek(), id];
 }

@@ -1,33 +1,41 @@
 // What the master counted of a job.
-import type { Counters } from "../app/types";
-
 export interface JobStatistics {
-  counters: Counters;
-  mean_per_pixel: Partial<Record<keyof Counters, number>>;
+  counters: Record<string, number>;
+  mean_per_pixel: Record<string, number>;
   samples_per_pixel: number;
   seconds: Record<string, number>;
   detail: {
     state: "making" | "done" | "unavailable";
     progress?: number;
     message?: string;
+    counters?: Record<string, number>;
     hits?: { leaf: number; name: string; hits: number }[];
     tests?: Record<string, number>;
   };
 }
 
-/// In the order of a ray's life.
-export const counterTitles: [keyof Counters, string][] = [
-  ["primary", "primary"],
-  ["reflected", "reflected"],
-  ["refracted", "refracted"],
-  ["shadow", "shadow"],
-  ["rays", "all rays"],
-  ["primary_hits", "primary hits"],
-  ["secondary_hits", "secondary hits"],
-  ["misses", "misses"],
-  ["lost", "lost"],
-  ["bad_samples", "NaN samples"],
+const titles: Record<string, string> = {
+  rays: "all rays",
+  bad_samples: "NaN samples",
+};
+const order = [
+  "primary",
+  "reflected",
+  "refracted",
+  "shadow",
+  "rays",
+  "primary_hits",
+  "secondary_hits",
+  "misses",
+  "lost",
 ];
+
+/// Names and titles of what was counted, in the order of a ray's life; what is new to us is last.
+export function titlesOf(counters: object): [string, string][] {
+  const place = (name: string): number => (order.includes(name) ? order.indexOf(name) : order.length);
+  const names = Object.keys(counters).sort((a, b) => place(a) - place(b));
+  return names.map((name) => [name, titles[name] ?? name.replaceAll("_", " ")]);
+}
 
 export interface Hits {
   name: string;

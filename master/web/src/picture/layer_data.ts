@@ -19,6 +19,7 @@ export class LayerData implements Size {
   /// missing, exact, the stride of the pass it is from, or outdated: smaller is better, 0 aside.
   readonly there: Uint8Array;
   private exactPixels = 0;
+  private hasBegun = false;
   private changed: Rect[] = [];
 
   constructor(
@@ -33,6 +34,10 @@ export class LayerData implements Size {
 
   get bytes(): number {
     return this.values.byteLength + this.there.byteLength;
+  }
+  /// Something is there.
+  get begun(): boolean {
+    return this.hasBegun;
   }
   get complete(): boolean {
     return this.exactPixels === this.there.length;
@@ -66,6 +71,7 @@ export class LayerData implements Size {
     const whole = tile.values.length >= columns * rows * tile.channels;
     if (!inside || !whole || tile.channels !== this.channels || tile.stride < 1) return false;
     for (let y = 0; y < tile.height; ++y) this.putRow(tile, y, columns);
+    this.hasBegun = true;
     this.change({ x: tile.x, y: tile.y, width: tile.width, height: tile.height });
     return true;
   }

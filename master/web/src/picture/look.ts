@@ -56,9 +56,15 @@ export function mapLook(entry: MapEntry, shown: Shown, range: Range): Look {
 
 /// Differences of pictures are seen through the same exposure and tone, but for their signs; those of maps over
 /// their own range.
-export function differenceLook(isPicture: boolean, display: Display, metric: Metric, errors: Errors | null): Look {
+export function differenceLook(
+  isPicture: boolean,
+  display: Display,
+  metric: Metric,
+  errors: Errors | null,
+): Look {
   const most = isPicture ? 2 ** -display.exposure : metric === "relative" ? 1 : (errors?.max ?? 1);
-  if (metric === "signed") return { ...base, kind: "scalar", table: table(diverging), low: -most, high: most, flatPosition: 0.5 };
+  if (metric === "signed")
+    return { ...base, kind: "scalar", table: table(diverging), low: -most, high: most, flatPosition: 0.5 };
   if (isPicture) return pictureLook(display);
   return { ...base, kind: "scalar", table: table(viridis), low: 0, high: most, flatPosition: 0 };
 }

@@ -72,7 +72,12 @@ function cross(context: CanvasRenderingContext2D, frame: Frame, box: Rect): void
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   const arm = 8 * frame.density;
   path.rect(box.x, box.y, box.width, box.height);
-  for (const [dx, dy] of [[-1, 0], [1, 0], [0, -1], [0, 1]] as const) {
+  for (const [dx, dy] of [
+    [-1, 0],
+    [1, 0],
+    [0, -1],
+    [0, 1],
+  ] as const) {
     const [ex, ey] = [x + (dx * box.width) / 2, y + (dy * box.height) / 2];
     path.moveTo(ex, ey);
     path.lineTo(ex + dx * arm, ey + dy * arm);
@@ -123,7 +128,8 @@ function drawValues(context: CanvasRenderingContext2D, frame: Frame, part: Part)
   context.font = `${size}px "DejaVu Sans Mono", ui-monospace, monospace`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  const first = (origin: number, from: number): number => Math.max(0, Math.floor((from - origin) / part.texel));
+  const first = (origin: number, from: number): number =>
+    Math.max(0, Math.floor((from - origin) / part.texel));
   const last = (origin: number, to: number, most: number): number =>
     Math.min(most - 1, Math.floor((to - origin) / part.texel));
   for (let y = first(part.origin.y, 0); y <= last(part.origin.y, frame.screen.height, data.height); ++y)
@@ -132,7 +138,14 @@ function drawValues(context: CanvasRenderingContext2D, frame: Frame, part: Part)
       if (middle.x < part.left || middle.x >= part.right) continue;
       valuesAt(part, x, y)?.forEach((value, c) => {
         const at = middle.y + (c - (lines - 1) / 2) * size * 1.25;
-        legible(context, plain(value, 4), middle.x, at, lines === 3 ? channelColors[c]! : "#fff", frame.density);
+        legible(
+          context,
+          plain(value, 4),
+          middle.x,
+          at,
+          lines === 3 ? channelColors[c]! : "#fff",
+          frame.density,
+        );
       });
     }
   context.globalAlpha = 1;

@@ -87,7 +87,10 @@ export interface NamedPalette {
   of: Palette;
 }
 
-const reversed = (palette: Palette): Palette => (t) => palette(1 - t);
+const reversed =
+  (palette: Palette): Palette =>
+  (t) =>
+    palette(1 - t);
 
 /// What maps of a scale kind can be shown in, the original's first; none: the colours are fixed.
 export const palettes: Record<Scale, NamedPalette[]> = {

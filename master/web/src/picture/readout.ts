@@ -53,7 +53,8 @@ export function readoutAt(pixel: Pixel): Readout | null {
     pixel,
     values: valuesText(first, pixel),
     other: both ? valuesText(reference, pixel) : "",
-    preview: first.data !== null && !first.data.isExact(Math.floor(pixel.x / step), Math.floor(pixel.y / step)),
+    preview:
+      first.data !== null && !first.data.isExact(Math.floor(pixel.x / step), Math.floor(pixel.y / step)),
   };
 }
 

@@ -1,4 +1,4 @@
-// Files of what is shown, made by the master from its own numbers.
+// Files of what is shown, made by the master from its own numbers where it can.
 import { getMade } from "../app/api";
 import { layer, selectedJob, tell, tellError } from "../app/state";
 import type { Job, LayerChoice, MapEntry } from "../app/types";
@@ -6,26 +6,63 @@ import { currentEntry } from "./compare";
 import { csvOf } from "./csv";
 import { shownMap, shownOf } from "./display";
 import { rangeOf } from "./figures";
+import { lookOf } from "./frame";
+import type { LayerData } from "./layer_data";
+import { Painter, type Look } from "./painter";
+import { palettes, viridis } from "./palettes";
 import type { Range, Shown } from "./range";
 import { areaIn, selection } from "./selection";
 
 export type Format = "png" | "exr" | "csv";
 
-export function mapPath(job: number, choice: LayerChoice, map: MapEntry, format: Format, shown: Shown, range: Range): string {
+/// The name the master has for these colours; null when it has none.
+export function masterScale(map: MapEntry, shown: Shown): "original" | "perceptual" | null {
+  if (map.scale === "normal" || map.scale === "label") return "original";
+  if (shown.log !== (map.scale === "depth")) return null;
+  if (shown.palette === 0) return "original";
+  return map.scale === "count" && palettes.count[shown.palette]?.of === viridis ? "perceptual" : null;
+}
+
+export function mapPath(
+  job: number,
+  choice: LayerChoice,
+  map: MapEntry,
+  format: Format,
+  shown: Shown,
+  range: Range,
+): string {
   const query = new URLSearchParams({ format });
   if (map.reduces) query.set("reduce", choice.reduce);
   if (map.compat && choice.compat) query.set("compat", "1");
-  if (format === "png" && (map.scale === "depth" || map.scale === "count")) {
-    query.set("low", String(range.low));
-    query.set("high", String(range.high));
-    query.set("scale", shown.palette === 0 ? "original" : "perceptual");
+  if (format === "png" && palettes[map.scale].length > 0) {
+    query.set("scale", masterScale(map, shown) ?? "original");
+    if (shown.mode !== "auto") {
+      query.set("low", String(range.low));
+      query.set("high", String(range.high));
+    }
   }
   return `/jobs/${job}/maps/${map.name}?${query.toString()}`;
 }
 
-export const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
+/// In colours that only this view has, pixel for pixel.
+async function paintedPng(data: LayerData, look: Look): Promise<Blob> {
+  const canvas = new OffscreenCanvas(data.width, data.height);
+  const part = {
+    data,
+    look,
+    other: null,
+    metric: "none",
+    origin: { x: 0, y: 0 },
+    texel: 1,
+    grid: 0,
+  } as const;
+  new Painter(canvas).paint(data, 1, [0, 0, 0], [{ ...part, left: 0, right: data.width }]);
+  return canvas.convertToBlob({ type: "image/png" });
+}
 
-export function download(blob: Blob, name: string): void {
+export export const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
+
+export export function download(blob: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
   link.download = name;
@@ -52,6 +89,13 @@ export function save(format: Format): void {
     return;
   }
   const shown = shownOf(map);
+  if (format === "png" && entry.data && masterScale(map, shown) === null) {
+    paintedPng(entry.data, lookOf(entry)).then(
+      (blob) => download(blob, `${baseName(job)}-${map.name}.png`),
+      tellError,
+    );
+    return;
+  }
   const path = mapPath(job.id, layer.peek(), map, format, shown, rangeOf(entry, map, shown));
   fetchAndSave(path, `${baseName(job)}-${map.name}.${format}`).catch(tellError);
 }
@@ -65,5 +109,8 @@ export function saveSelection(): void {
   const name = layer.peek().layer;
   const place = `x ${area.x * data.step} to ${(area.x + area.width - 1) * data.step}, y ${area.y * data.step} to ${(area.y + area.height - 1) * data.step}`;
   const title = `${name} of job ${job.id}, ${job.name}: ${place}${data.step > 1 ? `, every ${data.step}th pixel` : ""}`;
-  download(new Blob([csvOf(data, area, title)], { type: "text/csv" }), `${baseName(job)}-${name}-selection.csv`);
+  download(
+    new Blob([csvOf(data, area, title)], { type: "text/csv" }),
+    `${baseName(job)}-${name}-selection.csv`,
+  );
 }

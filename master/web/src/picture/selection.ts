@@ -10,7 +10,12 @@ export const selection = signal<Rect | null>(null);
 export function areaBetween(a: Point, b: Point, picture: Size): Rect | null {
   const x = Math.floor(Math.min(a.x, b.x));
   const y = Math.floor(Math.min(a.y, b.y));
-  const area = { x, y, width: Math.floor(Math.max(a.x, b.x)) + 1 - x, height: Math.floor(Math.max(a.y, b.y)) + 1 - y };
+  const area = {
+    x,
+    y,
+    width: Math.floor(Math.max(a.x, b.x)) + 1 - x,
+    height: Math.floor(Math.max(a.y, b.y)) + 1 - y,
+  };
   return overlap(area, { x: 0, y: 0, ...picture });
 }
 

@@ -18,50 +18,55 @@ export interface Histogram {
   counts: number[];
 }
 
-/// Calls with each value of a channel that is there.
-function forEachValue(data: LayerData, channel: number, area: Rect, use: (value: number) => void): void {
-  for (let y = area.y; y < area.y + area.height; ++y)
-    for (let x = area.x; x < area.x + area.width; ++x) {
-      const i = y * data.width + x;
-      if (data.there[i] !== missing) use(data.values[i * data.channels + channel]!);
-    }
-}
-
 export function figuresOf(data: LayerData, channel: number, area: Rect): Figures {
-  let min = Infinity;
-  let max = -Infinity;
-  let sum = 0;
-  let finite = 0;
-  let infinite = 0;
-  let nans = 0;
-  forEachValue(data, channel, area, (value) => {
-    if (Number.isNaN(value)) ++nans;
-    else if (!Number.isFinite(value)) ++infinite;
-    else {
-      ++finite;
-      sum += value;
-      if (value < min) min = value;
-      if (value > max) max = value;
+  const { values, there, width, channels } = data;
+  let [min, max, sum, finite, infinite, nans] = [Infinity, -Infinity, 0, 0, 0, 0];
+  for (let y = area.y; y < area.y + area.height; ++y)
+    for (let i = y * width + area.x; i < y * width + area.x + area.width; ++i) {
+      if (there[i] === missing) continue;
+      const value = values[i * channels + channel]!;
+      if (Number.isFinite(value)) {
+        ++finite;
+        sum += value;
+        if (value < min) min = value;
+        if (value > max) max = value;
+      } else if (value === value) ++infinite;
+      else ++nans;
     }
-  });
   const absent = area.width * area.height - finite - infinite - nans;
   if (finite === 0) return { min: NaN, max: NaN, mean: NaN, sum: 0, finite, infinite, nans, absent };
   return { min, max, mean: sum / finite, sum, finite, infinite, nans, absent };
 }
 
 /// Of the finite values from low to high, in `bins` equal parts; those outside are not counted.
-export function histogramOf(data: LayerData, channel: number, area: Rect, low: number, high: number, bins: number): Histogram {
+export function histogramOf(
+  data: LayerData,
+  channel: number,
+  area: Rect,
+  low: number,
+  high: number,
+  bins: number,
+): Histogram {
+  const { values, there, width, channels } = data;
   const counts = new Array<number>(bins).fill(0);
   const scale = high > low ? bins / (high - low) : 0;
-  forEachValue(data, channel, area, (value) => {
-    if (value >= low && value <= high) counts[Math.min(bins - 1, Math.floor((value - low) * scale))]! += 1;
-  });
+  for (let y = area.y; y < area.y + area.height; ++y)
+    for (let i = y * width + area.x; i < y * width + area.x + area.width; ++i) {
+      const value = values[i * channels + channel]!;
+      if (there[i] === missing || !(value >= low && value <= high)) continue;
+      counts[Math.min(bins - 1, Math.floor((value - low) * scale))]! += 1;
+    }
   return { low, high, counts };
 }
 
 /// The values below which the shares `from` and `to` (0 to 1) of the finite values lie, of at most 65,536 of them,
 /// evenly taken. Null when there are none.
-export function percentilesOf(data: LayerData, channel: number, from: number, to: number): [number, number] | null {
+export function percentilesOf(
+  data: LayerData,
+  channel: number,
+  from: number,
+  to: number,
+): [number, number] | null {
   const every = Math.max(1, Math.ceil(data.there.length / 65536));
   const some: number[] = [];
   for (let i = 0; i < data.there.length; i += every) {

@@ -1,9 +1,10 @@
 import { effect, untracked } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 
-const pause = 250; // milliseconds
+const shortestPause = 250; // milliseconds
 
-/// A value that takes its time to make: made anew at most four times a second when what `watched` reads changes.
+/// A value that takes its time to make: made anew when what `watched` reads changes, but not more than four times
+/// a second and not for more than a fifth of the time.
 export function useSteady<T>(watched: () => unknown, make: () => T): T | null {
   const [value, setValue] = useState<T | null>(null);
   useEffect(() => {
@@ -11,7 +12,9 @@ export function useSteady<T>(watched: () => unknown, make: () => T): T | null {
     let due = false;
     const run = (): void => {
       due = false;
+      const start = performance.now();
       setValue(untracked(make));
+      const pause = Math.max(shortestPause, 4 * (performance.now() - start));
       timer = setTimeout(() => {
         timer = undefined;
         if (due) run();

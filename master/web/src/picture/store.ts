@@ -48,15 +48,36 @@ export function want(list: Watch[]): void {
   forget();
 }
 
-/// The least recently wanted go when there are too many bytes.
+/// Which to let go for the bytes to be at most so many: the least recently wanted, but none that is wanted now.
+export function surplus<T extends { bytes: number; used: number; wanted: boolean }>(
+  all: T[],
+  most: number,
+): T[] {
+  let bytes = all.reduce((sum, each) => sum + each.bytes, 0);
+  const oldest = all.filter((each) => !each.wanted).sort((a, b) => a.used - b.used);
+  return oldest.filter((each) => {
+    const goes = bytes > most;
+    if (goes) bytes -= each.bytes;
+    return goes;
+  });
+}
+
 function forget(): void {
-  let bytes = [...entries.values()].reduce((sum, entry) => sum + (entry.data?.bytes ?? 0), 0);
-  const oldest = [...entries].filter(([, entry]) => !wanted.includes(entry)).sort(([, a], [, b]) => a.used - b.used);
-  for (const [key, entry] of oldest) {
-    if (bytes <= mostBytes) return;
-    bytes -= entry.data?.bytes ?? 0;
+  const all = [...entries].map(([key, entry]) => ({
+    key,
+    entry,
+    bytes: entry.data?.bytes ?? 0,
+    used: entry.used,
+    wanted: wanted.includes(entry),
+  }));
+  for (const { key, entry } of surplus(all, mostBytes)) {
     entries.delete(key);
+    forgetIds(entry);
   }
+}
+
+function forgetIds(entry: Entry): void {
+  for (const [id, other] of byId) if (other === entry) byId.delete(id);
 }
 
 /// The list of watches may have changed since the master numbered it.
@@ -72,11 +93,12 @@ function entryFor(message: LayerMessage): Entry | undefined {
 function begin(message: LayerMessage): Entry | undefined {
   const entry = entryFor(message);
   if (!entry) return undefined;
-  for (const [id, other] of byId) if (other === entry) byId.delete(id);
+  forgetIds(entry);
   byId.set(message.id, entry);
   const { width, height, channels, step: apart } = message;
   const data = entry.data;
-  const same = data?.width === width && data.height === height && data.channels === channels && data.step === apart;
+  const same =
+    data?.width === width && data.height === height && data.channels === channels && data.step === apart;
   if (same) data.outdate();
   else entry.data = new LayerData(width, height, channels, apart);
   forget();

@@ -27,7 +27,6 @@ export class LayerTextures {
           there: texture(gl, gl.R8UI, width, height),
         });
       }
-    data.takeChanges();
     this.upload(whole(data));
   }
 
@@ -56,7 +55,17 @@ export class LayerTextures {
     gl.bindTexture(gl.TEXTURE_2D, chunk.values);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, x, y, part.width, part.height, format, gl.FLOAT, data.values);
     gl.bindTexture(gl.TEXTURE_2D, chunk.there);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, x, y, part.width, part.height, gl.RED_INTEGER, gl.UNSIGNED_BYTE, data.there);
+    gl.texSubImage2D(
+      gl.TEXTURE_2D,
+      0,
+      x,
+      y,
+      part.width,
+      part.height,
+      gl.RED_INTEGER,
+      gl.UNSIGNED_BYTE,
+      data.there,
+    );
   }
 
   free(): void {
@@ -68,10 +77,16 @@ export class LayerTextures {
 }
 
 /// Floats cannot be filtered everywhere, and are not to be.
-export function texture(gl: WebGL2RenderingContext, format: GLenum, width: number, height: number): WebGLTexture {
+export function texture(
+  gl: WebGL2RenderingContext,
+  format: GLenum,
+  width: number,
+  height: number,
+): WebGLTexture {
   const made = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, made);
-  for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+  for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+    gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
   for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
     gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
   gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);

@@ -74,7 +74,11 @@ export function kept(view: View, screen: Size, picture: Size): View {
 /// All of the picture, as large as it goes; enlarged by a whole number, so that its pixels are equally large.
 export function fitted(screen: Size, picture: Size): View {
   const zoom = Math.min(screen.width / picture.width, screen.height / picture.height);
-  return { zoom: limitedZoom(zoom > 1 ? Math.floor(zoom) : zoom), x: picture.width / 2, y: picture.height / 2 };
+  return {
+    zoom: limitedZoom(zoom > 1 ? Math.floor(zoom) : zoom),
+    x: picture.width / 2,
+    y: picture.height / 2,
+  };
 }
 
 /// Moved as little as needed for the pixel to be on the screen.

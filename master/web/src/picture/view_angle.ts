@@ -13,7 +13,8 @@ export interface Camera {
   angle_deg: number; // horizontal
 }
 
-const dot = (a: ArrayLike<number>, b: ArrayLike<number>): number => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
+const dot = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+  a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
 const unit = (v: Vec3): Vec3 => {
   const length = Math.hypot(...v);
   return [v[0] / length, v[1] / length, v[2] / length];
@@ -41,7 +42,13 @@ function axesOf(camera: Camera): [Vec3, Vec3, Vec3] {
 
 /// Degrees; null when the pixel shows nothing. The normal is in the world's axes, or in the camera's (right, up,
 /// forward).
-export function viewAngle(camera: Camera, film: Size, pixel: Point, normal: ArrayLike<number>, axes: "world" | "camera"): number | null {
+export function viewAngle(
+  camera: Camera,
+  film: Size,
+  pixel: Point,
+  normal: ArrayLike<number>,
+  axes: "world" | "camera",
+): number | null {
   const length = Math.sqrt(dot(normal, normal));
   if (!Number.isFinite(length) || length === 0) return null;
   const ray = rayInCamera(camera, film, pixel);
@@ -49,7 +56,7 @@ export function viewAngle(camera: Camera, film: Size, pixel: Point, normal: Arra
   const along: Vec3 =
     axes === "camera"
       ? ray
-      : [0, 1, 2].map((i) => right[i]! * ray[0] + up[i]! * ray[1] + forward[i]! * ray[2]) as Vec3;
+      : ([0, 1, 2].map((i) => right[i]! * ray[0] + up[i]! * ray[1] + forward[i]! * ray[2]) as Vec3);
   const cosine = -dot(normal, along) / (length * Math.hypot(...along));
   return (Math.acos(Math.min(Math.max(cosine, -1), 1)) * 180) / Math.PI;
 }

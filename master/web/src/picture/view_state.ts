@@ -5,6 +5,9 @@ import { viewQuery } from "../app/route";
 import { selectedJob, type Pixel } from "../app/state";
 import * as view from "./view";
 
+/// Of the element that has the focus when keys move the cursor.
+export const canvasId = "picture-canvas";
+
 /// Of the area the picture is shown in, device pixels.
 export const screen = signal<view.Size>({ width: 1, height: 1 });
 /// Device pixels a CSS pixel.
@@ -39,7 +42,8 @@ const middle = (): view.Point => ({ x: screen.peek().width / 2, y: screen.peek()
 
 export const zoomBy = (factor: number, at: view.Point = middle()): void =>
   move(view.zoomedAt(current.peek(), screen.peek(), at, factor));
-export const zoomTo = (zoom: number, at: view.Point = middle()): void => zoomBy(zoom / current.peek().zoom, at);
+export const zoomTo = (zoom: number, at: view.Point = middle()): void =>
+  zoomBy(zoom / current.peek().zoom, at);
 export const panBy = (by: view.Point): void => move(view.panned(current.peek(), by));
 export function reveal(pixel: Pixel): void {
   const next = view.showing(current.peek(), screen.peek(), pixel);
