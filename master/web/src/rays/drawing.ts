@@ -39,7 +39,7 @@ function marksOf({ scene, icons }: Drawing, projector: Projector): string[] {
     const [x, y] = [seen.x.toFixed(2), seen.y.toFixed(2)];
     return [
       `<circle cx="${x}" cy="${y}" r="5" fill="${color}" stroke="#14171c" stroke-width="1.5"/>`,
-      `<text x="${x}" y="${y}" dx="9" dy="4" font-family="sans-serif" font-size="12" fill="${color}">${name}</text>`,
+      `<text x="${x}" y="${y}" dx="8" dy="-8" font-family="sans-serif" font-size="12" fill="${color}">${name}</text>`,
     ];
   });
 }
