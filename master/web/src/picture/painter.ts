@@ -30,6 +30,11 @@ export interface Part {
   grid: number; // how strong, 0 to 1
 }
 
+/// A canvas, of the page or not.
+export interface Surface {
+  getContext(kind: "webgl2", options?: WebGLContextAttributes): WebGL2RenderingContext | null;
+}
+
 const mostTextures = 6; // layers on the graphics card
 
 export class Painter {
@@ -42,13 +47,13 @@ export class Painter {
   private readonly longestSide: number;
   private frame = 0;
 
-  constructor(canvas: HTMLCanvasElement | OffscreenCanvas) {
+  constructor(canvas: Surface) {
     const gl = canvas.getContext("webgl2", {
       alpha: false,
       antialias: false,
       depth: false,
       preserveDrawingBuffer: true,
-    }) as WebGL2RenderingContext | null;
+    });
     if (!gl) throw new Error("This browser has no WebGL2, which the picture is painted with.");
     this.gl = gl;
     this.program = programOf(gl);

@@ -60,9 +60,9 @@ async function paintedPng(data: LayerData, look: Look): Promise<Blob> {
   return canvas.convertToBlob({ type: "image/png" });
 }
 
-export export const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
+export const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
 
-export export function download(blob: Blob, name: string): void {
+export function download(blob: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
   link.download = name;
