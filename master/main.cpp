@@ -85,8 +85,10 @@ void serve(const Arguments& arguments) {
       [&](std::uint64_t after) { return farm.log().after(after); },
   };
   const AppFiles app;
-  const HttpServer http({arguments.http, arguments.insecure},
-                        {.farm = door, .diagnostics = diagnostics, .master = master, .app = app});
+  const SceneLibrary scenes;
+  const HttpServer http(
+      {arguments.http, arguments.insecure},
+      {.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes});
   std::optional<LocalThreads> local;
   if (arguments.threads > 0) local.emplace(io, farm, arguments.threads);
   dial_all(sessions, arguments.dial);

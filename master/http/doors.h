@@ -8,6 +8,7 @@
 #include "master/event_log.h"
 #include "master/http/app_files.h"
 #include "master/http/farm_door.h"
+#include "master/http/scene_library.h"
 
 namespace rayfarm {
 
@@ -28,6 +29,7 @@ struct Doors {
   Diagnostics& diagnostics;
   const MasterDoor& master;
   const AppFiles& app;
+  const SceneLibrary& scenes;
 };
 
 }  // namespace rayfarm

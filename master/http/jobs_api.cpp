@@ -3,7 +3,7 @@
 
 #include "master/http/farm_json.h"
 #include "master/http/route.h"
-#include "master/http/submission.h"
+#include "master/http/script_submission.h"
 
 namespace rayfarm {
 namespace {
@@ -33,7 +33,7 @@ ApiResponse show_job(const Call& call) {
 }
 
 ApiResponse submit_job(const Call& call) {
-  JobSpec spec = job_spec(parse_json(call.request.body));
+  JobSpec spec = submitted_job(parse_json(call.request.body), call.doors.scenes);
   ApiResponse response =
       shown(call.doors.farm.ask([spec = std::move(spec)](Farm& farm, FarmTime now) mutable {
         const JobId id = farm.submit(std::move(spec), now);

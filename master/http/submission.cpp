@@ -32,6 +32,20 @@ bool flag_in(const json& body, const char* name) {
   return value.get<bool>();
 }
 
+std::map<std::string, std::string> parameters_in(const json& body) {
+  const json value = body.value("parameters", json::object());
+  if (!value.is_object()) throw ApiError(400, "parameters must be an object");
+  std::map<std::string, std::string> parameters;
+  for (const auto& [name, text] : value.items()) {
+    if (!text.is_string())
+      throw ApiError(400, "parameters." + name + " must be a text, as after -p on the command line");
+    if (name.size() + text.get_ref<const std::string&>().size() > longest_text)
+      throw ApiError(400, "parameters." + name + " is longer than 1000 bytes");
+    parameters[name] = text;
+  }
+  return parameters;
+}
+
 }  // namespace
 
 json parse_json(const std::string& text) {
@@ -57,12 +71,11 @@ int priority_from_json(const json& value) {
   return value.get<int>();
 }
 
-JobSpec job_spec(const json& body) {
-  constexpr std::array known{"scene", "name", "output", "priority", "hold", "key", "settings"};
+JobSpec job_wishes(const json& body) {
+  constexpr std::array known{"scene",  "scene_name", "script", "script_name", "parameters", "name",
+                             "output", "priority",   "hold",   "key",         "settings"};
   for (const auto& [name, ignored] : body.items())
     if (std::find(known.begin(), known.end(), name) == known.end()) throw ApiError(400, name + " is unknown");
-  if (!body.contains("scene") || !body["scene"].is_string())
-    throw ApiError(400, "scene must be there: the encoded scene in base64");
 
   JobSpec spec;
   spec.name = text_in(body, "name");
@@ -70,8 +83,16 @@ JobSpec job_spec(const json& body) {
   spec.key = text_in(body, "key");
   spec.hold = flag_in(body, "hold");
   if (body.contains("priority")) spec.priority = priority_from_json(body["priority"]);
-  spec.settings = settings_from_json(body.value("settings", json::object()));
+  spec.parameters = parameters_in(body);
+  return spec;
+}
 
+JobSpec job_spec(const json& body) {
+  if (!body.contains("scene") || !body["scene"].is_string())
+    throw ApiError(400, "scene must be there: the encoded scene in base64");
+
+  JobSpec spec = job_wishes(body);
+  spec.settings = settings_from_json(body.value("settings", json::object()));
   Bytes bytes = from_base64(body["scene"].get_ref<const std::string&>());
   decode_scene(bytes);  // throws unless it can be rendered; workers decode it again
   spec.scene_hash = sha256_hex(bytes);
@@ -80,8 +101,13 @@ JobSpec job_spec(const json& body) {
 }
 
 json to_json(const JobSpec& spec) {
-  return {{"scene", base64(*spec.scene_bytes)}, {"name", spec.name}, {"output", spec.output},
-          {"priority", spec.priority},          {"hold", spec.hold}, {"key", spec.key},
+  return {{"scene", base64(*spec.scene_bytes)},
+          {"name", spec.name},
+          {"output", spec.output},
+          {"priority", spec.priority},
+          {"hold", spec.hold},
+          {"key", spec.key},
+          {"parameters", spec.parameters},
           {"settings", to_json(spec.settings)}};
 }
 

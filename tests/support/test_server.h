@@ -20,8 +20,10 @@ class TestServer {
  public:
   explicit TestServer(OnFarm on_farm, HttpSettings settings = {.listen = "127.0.0.1:0"})
       : door_(std::move(on_farm)),
-        server_(std::move(settings),
-                {.farm = door_, .diagnostics = diagnostics_, .master = master_, .app = app_}) {}
+        server_(
+            std::move(settings),
+            {.farm = door_, .diagnostics = diagnostics_, .master = master_, .app = app_, .scenes = scenes_}) {
+  }
 
   std::string url() const { return server_.url(); }
   std::uint16_t port() const {
@@ -33,6 +35,7 @@ class TestServer {
   const MasterDoor master_ = lone_master();
   Diagnostics diagnostics_{1};
   const AppFiles app_;
+  const SceneLibrary scenes_;
   HttpServer server_;
 };
 

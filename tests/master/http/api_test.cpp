@@ -18,11 +18,11 @@ class Api : public testing::Test {
  protected:
   ApiResponse get(const std::string& target) {
     return answer({"GET", target, "", "", "", "", ""},
-                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app});
+                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes});
   }
   ApiResponse post(const std::string& target, const json& body = json::object()) {
     return answer({"POST", target, "", "", "", "", body.dump()},
-                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app});
+                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes});
   }
   json get_json(const std::string& target) { return json::parse(get(target).body); }
   std::string submit(const JobSpec& spec = small_job()) {
@@ -37,6 +37,7 @@ class Api : public testing::Test {
   Diagnostics diagnostics{1};
   MasterDoor master = lone_master();
   const AppFiles app;
+  const SceneLibrary scenes;
 };
 
 TEST_F(Api, ASubmittedJobIsListedAndShownWithItsSettings) {

@@ -35,7 +35,7 @@ class DiagnosticsApi : public testing::Test {
   explicit DiagnosticsApi(FarmLimits limits = {}) : farm(limits) {}
 
   ApiResponse get(const std::string& target) {
-    const Doors doors{.farm = door, .diagnostics = diagnostics, .master = master, .app = app};
+    const Doors doors{.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes};
     return answer({"GET", "/api/v1/" + target, "", "", "", "", ""}, doors);
   }
   json get_json(const std::string& target) { return json::parse(get(target).body.text()); }
@@ -75,6 +75,7 @@ class DiagnosticsApi : public testing::Test {
   Diagnostics diagnostics{0};
   MasterDoor master = lone_master();
   const AppFiles app;
+  const SceneLibrary scenes;
 };
 
 /// As the command makes it.

@@ -1,0 +1,22 @@
+// Scenes that come as a script, or by the name of one that the master offers.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "master/http/scene_library.h"
+#include "master/http/submission.h"
+
+namespace rayfarm {
+
+constexpr std::size_t longest_script = 1 << 20;  // bytes
+
+/// {script, name}: what the script declares. Evaluates it. Throws ApiError and SceneError.
+ScriptFacts script_facts(const nlohmann::json& body);
+nlohmann::json to_json(const ScriptFacts& facts);
+nlohmann::json to_json(const OfferedScene& scene);
+
+/// What POST /jobs brings: with `scene` as job_spec(), else with `scene_name`, or with `script` (and
+/// script_name), and `parameters`. The script is evaluated; a setting not given is the scene's, then the
+/// built-in one. Throws what job_spec() throws.
+JobSpec submitted_job(const nlohmann::json& body, const SceneLibrary& library);
+
+}  // namespace rayfarm
