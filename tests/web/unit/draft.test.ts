@@ -6,10 +6,12 @@ import {
   change,
   checked,
   declared,
+  faults,
   followScript,
   form,
   prefill,
   refusal,
+  scenes,
   submit,
   takeFile,
 } from "../../../master/web/src/jobs/draft";
@@ -119,13 +121,33 @@ describe("submitting", () => {
     const sent = submit();
     await asked[0]!.answer(422, { error: "there is no scene circus" });
     await sent;
-    expect([page.value, refusal.value, form.value.name]).toEqual(["submit", "there is no scene circus", "mine"]);
+    expect([page.value, refusal.value, form.value.name]).toEqual([
+      "submit",
+      "there is no scene circus",
+      "mine",
+    ]);
+  });
+});
+
+describe("a scene", () => {
+  it("that the master does not offer must be chosen anew", () => {
+    change({ scene: "gone" });
+    expect(faults.value).toEqual({});
+    scenes.value = [];
+    expect(faults.value.source).toBe("Choose a scene.");
+    scenes.value = null;
   });
 });
 
 describe("a clone", () => {
   it("is filled in once, so that changes are not lost", () => {
-    const job = { id: 9, name: "flake", priority: 5, parameters: {}, settings: { ...emptyForm().switches } } as Job;
+    const job = {
+      id: 9,
+      name: "flake",
+      priority: 5,
+      parameters: {},
+      settings: { ...emptyForm().switches },
+    } as Job;
     prefill(job);
     change({ name: "changed" });
     prefill(job);

@@ -141,11 +141,24 @@ describe("a cloned job", () => {
     reflections: false,
     refractions: true,
   };
-  const job = { id: 7, name: "flake", priority: 60, parameters: { depth: "6" }, settings } as unknown as Job;
+  const job = {
+    id: 7,
+    name: "flake",
+    state: "done",
+    priority: 60,
+    parameters: { depth: "6" },
+    settings,
+  } as unknown as Job;
   it("has the same settings and scene until they are changed", () => {
     const form = formOf(job);
     expect(faultsOf(form, nothingDeclared)).toEqual({});
     expect(bodyOf(form, nothingDeclared)).toEqual({ scene_of: 7, name: "flake", priority: 60, settings });
+  });
+  it("that ended badly is made of the master's scene of its name, with its parameters", () => {
+    const declared: Declared = { ...nothingDeclared, parameters: [parameter("int", { name: "depth" })] };
+    const body = bodyOf(formOf({ ...job, state: "cancelled" }), declared);
+    expect(body).toMatchObject({ scene_name: "flake", parameters: { depth: "6" }, settings });
+    expect(body).not.toHaveProperty("scene_of");
   });
 });
 

@@ -33,7 +33,10 @@ export const declared = computed<Declared>(() => {
   const script = checked.value;
   return form.value.source === "script" && script && "declared" in script ? script.declared : nothingDeclared;
 });
-export const faults = computed(() => faultsOf(form.value, declared.value));
+export const faults = computed(() => {
+  const offered = scenes.value?.some((one) => one.name === form.value.scene) ?? true;
+  return faultsOf(offered ? form.value : { ...form.value, scene: "" }, declared.value);
+});
 
 let prefilledFrom: number | null = null;
 /// Begins with a job's settings; once, so that what was changed since is not lost.

@@ -78,17 +78,19 @@ export const emptyForm = (): Form => ({
   hold: false,
 });
 
-/// A job's settings to be changed; the scene is the job's own.
+/// A job's settings to be changed. The scene is the job's own; of a job that ended badly the master keeps none,
+/// so it is chosen anew, first of all by the job's name.
 export function formOf(job: Job): Form {
   const s = job.settings;
+  const keepsScene = job.state !== "cancelled" && job.state !== "failed";
   const texts = Object.fromEntries(
     numberNames.map((name) => [name, String(name === "priority" ? job.priority : s[name])]),
   ) as Record<NumberName, string>;
   return {
     ...emptyForm(),
-    source: "job",
+    source: keepsScene ? "job" : "farm",
     scene: job.name,
-    job: job.id,
+    job: keepsScene ? job.id : null,
     parameters: { ...job.parameters },
     numbers: texts,
     sampler: s.sampler,
