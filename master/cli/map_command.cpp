@@ -7,6 +7,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/interrupt.h"
+#include "master/cli/job_diagnostics.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/progress_line.h"
 #include "master/diagnostics/map_file.h"
@@ -19,6 +20,7 @@ namespace {
 
 struct MapArguments {
   PictureOptions picture;
+  std::optional<JobNumber> job;
   std::string kind, reduction = "majority", output;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool compatible = false, legend = false;
@@ -57,9 +59,15 @@ void write(const MapArguments& a, const PreparedScene& scene, const Map& map, co
   write_picture(a.output, picture);
 }
 
+/// The shortest that reads back as the same number.
+std::string number_text(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
 MapRequest request_of(const MapArguments& a) {
   const MapRequest request{map_named(a.kind), *reduction_named(a.reduction), a.compatible};
-  if (request.kind->source == MapSource::farm)
+  if (request.kind->source == MapSource::farm && !a.job)
     throw SettingsError("the map " + a.kind +
                         " is of a job of the farm, not of a scene; name a job instead: " + "rayfarm map " +
                         a.kind + " --job ID");
@@ -71,12 +79,29 @@ MapRequest request_of(const MapArguments& a) {
   return request;
 }
 
+ExitCode fetch_map(const MapArguments& a) {
+  const std::optional<MapRange> range = range_of(a);
+  write_made_for_job(*a.job, "maps/" + a.kind,
+                     {{"format", a.to_csv()   ? "csv"
+                                 : a.to_exr() ? "exr"
+                                              : "png"},
+                      {"reduce", a.reduction},
+                      {"compat", a.compatible ? "1" : ""},
+                      {"scale", a.palette},
+                      {"low", range ? number_text(range->low) : ""},
+                      {"high", range ? number_text(range->high) : ""},
+                      {"legend", a.legend ? "1" : ""}},
+                     "mapping", a.output);
+  return ExitCode::done;
+}
+
 ExitCode make_map(const MapArguments& a) {
   if (!a.to_csv() && !a.to_exr() && !a.output.ends_with(".png"))
     throw FileError("cannot tell what to write from the name " + a.output +
                     "; let it end in .png, .exr or .csv");
   const MapRequest request = request_of(a);
   check_place(a.output);
+  if (a.job) return fetch_map(a);
   note_interrupts();
   PreparedScene scene = prepare(a.picture);
   const World world(std::move(scene.scene));
@@ -106,6 +131,9 @@ void add_map_command(CLI::App& app, Command& chosen) {
   }
   command->add_option("KIND", arguments->kind, map_names())->required()->check(CLI::IsMember(names));
   add_sample_options(*command, arguments->picture);
+  command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
+      ->check(CLI::Range(1u, 1024u));
+  add_job_option(*command, arguments->job);
   command
       ->add_option("-o,--output", arguments->output,
                    "File to write: .png (colours), .exr (raw values) or .csv (raw values, a line a row)")
@@ -127,9 +155,9 @@ void add_map_command(CLI::App& app, Command& chosen) {
       "--range", arguments->range,
       "Values of the first and last colour, LOW,HIGH, to compare pictures; else the map's own");
   command->add_flag("--legend", arguments->legend, "What the colours mean, beside the .png");
-  command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
-      ->check(CLI::Range(1u, 1024u));
-  command->footer("Kinds:" + kinds + "\nExample: rayfarm map depth scenes/circus.lua -o depth.png");
+  command->footer("Kinds:" + kinds +
+                  "\nExamples:\n  rayfarm map depth scenes/circus.lua -o depth.png\n  rayfarm map worker "
+                  "--job 7 -o who.png");
   command->callback([arguments, &chosen] { chosen = [arguments] { return make_map(*arguments); }; });
 }
 

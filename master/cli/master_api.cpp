@@ -16,7 +16,8 @@ using nlohmann::json;
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int news_seconds = 10;  // how long the master may hold a question for news
+constexpr int news_seconds = 10;                          // how long the master may hold a question for news
+constexpr auto made_patience = std::chrono::minutes(10);  // a picture of 500 megapixels is compressed first
 constexpr auto busy_patience = std::chrono::minutes(2);
 constexpr auto busy_pause = std::chrono::milliseconds(500);
 
@@ -88,9 +89,20 @@ std::string master_url() {
 
 json get_json(const std::string& target) { return parsed(asked({"GET", "", target, ""})); }
 std::string get_bytes(const std::string& target) {
-  constexpr auto patience = std::chrono::minutes(10);  // a film of 500 megapixels is compressed first
-  return asked({"GET", "", target, "", patience}).body;
+  return asked({"GET", "", target, "", made_patience}).body;
 }
+
+std::string get_made(const std::string& target, const std::function<void(double share)>& progress) {
+  const char* wait = target.find('?') == std::string::npos ? "?wait=1" : "&wait=1";  // seconds between news
+  for (;;) {
+    HttpReply reply = asked({"GET", "", target + wait, "", made_patience});
+    if (reply.status != 202) return std::move(reply.body);
+    const json making = parsed(reply);
+    const json& part = making.contains("detail") ? making["detail"] : making;
+    progress(part.value("progress", 0.0));
+  }
+}
+
 json post_json(const std::string& target, const json& body) {
   return parsed(asked({"POST", "", target, body.dump()}));
 }

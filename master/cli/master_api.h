@@ -12,6 +12,8 @@ std::string master_url();
 
 nlohmann::json get_json(const std::string& target);
 std::string get_bytes(const std::string& target);
+/// The bytes at the target, when they have been made; how far they are (0 to 1) is told meanwhile.
+std::string get_made(const std::string& target, const std::function<void(double share)>& progress);
 nlohmann::json post_json(const std::string& target, const nlohmann::json& body);
 
 using JobNumber = std::uint64_t;

@@ -8,6 +8,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/interrupt.h"
+#include "master/cli/job_diagnostics.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/print_json.h"
 #include "master/cli/progress_line.h"
@@ -23,6 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 struct StatsArguments {
   PictureOptions picture;
+  std::optional<JobNumber> job;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool json = false;
 };
@@ -95,6 +97,10 @@ void print(const Report& r) {
 }
 
 ExitCode stats(const StatsArguments& a) {
+  if (a.job) {
+    print_job_statistics(*a.job, a.json);
+    return ExitCode::done;
+  }
   note_interrupts();
   Report report;
   auto last = Clock::now();
@@ -135,8 +141,9 @@ void add_stats_command(CLI::App& app, Command& chosen) {
   add_sample_options(*command, arguments->picture);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
       ->check(CLI::Range(1u, 1024u));
+  add_job_option(*command, arguments->job);
   command->add_flag("--json", arguments->json, "Result as JSON");
-  command->footer("Example: rayfarm stats scenes/circus.lua --spp 4");
+  command->footer("Examples:\n  rayfarm stats scenes/circus.lua --spp 4\n  rayfarm stats --job 7");
   command->callback([arguments, &chosen] { chosen = [arguments] { return stats(*arguments); }; });
 }
 

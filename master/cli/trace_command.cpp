@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/cli/commands.h"
+#include "master/cli/job_diagnostics.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/print_json.h"
 #include "master/cli/text.h"
@@ -20,6 +21,7 @@ namespace {
 
 struct TraceArguments {
   PictureOptions picture;
+  std::optional<JobNumber> job;
   std::string pixel, sample = "0", svg_file;
   bool json = false;
 };
@@ -48,8 +50,21 @@ void check_svg(const std::string& file) {
   check_place(file);
 }
 
+ExitCode trace_job(const TraceArguments& a) {
+  const Pixel pixel = pixel_of(a.pixel);
+  const Query query{{"x", std::to_string(pixel.x)}, {"y", std::to_string(pixel.y)}, {"sample", a.sample}};
+  if (!a.svg_file.empty()) {
+    Query drawn = query;
+    drawn.emplace_back("format", "svg");
+    write_made_for_job(*a.job, "trace", drawn, "tracing", a.svg_file);
+  }
+  print_job_trace(*a.job, query, a.json);
+  return ExitCode::done;
+}
+
 ExitCode trace(const TraceArguments& a) {
   check_svg(a.svg_file);
+  if (a.job) return trace_job(a);
   PreparedScene scene = prepare(a.picture);
   const Pixel pixel = pixel_of(a.pixel);
   const SampleChoice choice = sample_choice(a.sample, scene.settings);
@@ -76,11 +91,14 @@ void add_trace_command(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<TraceArguments>();
   CLI::App* command = app.add_subcommand("trace", "Show the rays behind a pixel");
   add_sample_options(*command, arguments->picture);
+  add_job_option(*command, arguments->job);
   command->add_option("--pixel", arguments->pixel, "X,Y from the upper left, from 0")->required();
   command->add_option("--sample", arguments->sample, "Number of a sample (default 0), all or centre");
   command->add_option("-o,--output", arguments->svg_file, "Draw the rays, .svg");
   command->add_flag("--json", arguments->json, "Rays as JSON");
-  command->footer("Example: rayfarm trace scenes/circus.lua --pixel 320,240 --sample all -o rays.svg");
+  command->footer(
+      "Examples:\n  rayfarm trace scenes/circus.lua --pixel 320,240 --sample all -o rays.svg\n  rayfarm "
+      "trace --job 7 --pixel 320,240");
   command->callback([arguments, &chosen] { chosen = [arguments] { return trace(*arguments); }; });
 }
 

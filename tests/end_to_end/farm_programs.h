@@ -53,6 +53,7 @@ class FarmPrograms : public testing::Test {
   std::string fetched(const std::string& job);
 
   // What the farm says.
+  const std::string& http() const { return http_; }
   nlohmann::json ask(const std::string& target) const;
   nlohmann::json job(const std::string& id) const;
   std::string state_of(const std::string& id) const;

@@ -1,0 +1,30 @@
+// How the picture of a job came about, asked of the master: what the commands otherwise make of a scene.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/cli/master_api.h"
+
+namespace rayfarm {
+
+/// --job ID, instead of SCENE and what else the command does not need of all that it has so far. One of the two
+/// is needed.
+void add_job_option(CLI::App& command, std::optional<JobNumber>& job);
+
+/// Names and values for a request; empty values are left out.
+using Query = std::vector<std::pair<std::string, std::string>>;
+
+/// The bytes at jobs/ID/what, once they are made; how far they are is shown with the word. Interrupted, it says
+/// that nothing was written.
+std::string made_for_job(JobNumber job, const std::string& what, const Query& query, const char* doing);
+void write_made_for_job(JobNumber job, const std::string& what, const Query& query, const char* doing,
+                        const std::string& file);
+
+void print_job_statistics(JobNumber job, bool as_json);
+/// As lines, or as JSON.
+void print_job_trace(JobNumber job, const Query& query, bool as_json);
+
+}  // namespace rayfarm
