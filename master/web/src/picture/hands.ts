@@ -10,10 +10,11 @@ import {
   cursor,
   density,
   fitOrFull,
-  hovered,
   panBy,
   pictureSize,
   pixelUnder,
+  pointer,
+  pointer,
   screen,
   zoomBy,
 } from "./view_state";
@@ -46,7 +47,7 @@ export function makeHands(): Hands & { stop: () => void } {
       const moved = Math.hypot(to.x - from.x, to.y - from.y) > 3 * density.peek();
       selection.value = moved && size ? areaBetween(place(from), place(to), size) : null;
     },
-    hover: (at) => (hovered.value = at && pixelUnder(at)),
+    hover: (at) => (pointer.value = at),
     toggleFit: fitOrFull,
     overWipe: (at) =>
       comparison.peek() === "wipe" &&

@@ -25,8 +25,10 @@ export const pictureSize = computed<view.Size | null>(() =>
   pictureWidth.value > 0 ? { width: pictureWidth.value, height: pictureHeight.value } : null,
 );
 
-/// The pixel under the pointer, and the one that keys move.
-export const hovered = signal<Pixel | null>(null);
+/// Where the pointer is on the screen, and the pixel under it, also when the picture moves and the pointer does not.
+export const pointer = signal<view.Point | null>(null);
+export const hovered = computed<Pixel | null>(() => pointer.value && pixelUnder(pointer.value));
+/// The pixel that keys move.
 export const cursor = signal<Pixel | null>(null);
 
 function show(next: view.View): void {
@@ -63,8 +65,8 @@ export function fitOrFull(at: view.Point): void {
 }
 
 export const pixelUnder = (at: view.Point): Pixel | null => {
-  const size = pictureSize.peek();
-  return size && view.pixelAt(view.toPicture(current.peek(), screen.peek(), at), size);
+  const size = pictureSize.value;
+  return size && view.pixelAt(view.toPicture(current.value, screen.value, at), size);
 };
 
 /// What was shown before, to carry the place over to another resolution of the same scene.
