@@ -34,10 +34,12 @@ export async function openApp(url: string, view: { width?: number; height?: numb
     if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver Message/.test(message.text()))
       complaints.push(message.text());
   });
-  page.on("request", (request) => {
-    if (!request.url().startsWith(url) && !/^(blob|data):/.test(request.url()))
-      complaints.push(`asks another host: ${request.url()}`);
-  });
+  const judge = (asked: string): void => {
+    if (new URL(asked).host !== new URL(url).host && !/^(blob|data):/.test(asked))
+      complaints.push(`asks another host: ${asked}`);
+  };
+  page.on("request", (request) => judge(request.url()));
+  page.on("websocket", (socket) => judge(socket.url()));
   page.on("pageerror", (error) => complaints.push(String(error)));
   await page.goto(url);
   return { page, complaints, close: () => context.close() };
