@@ -4,7 +4,7 @@ import type { Page, Request } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { closeBrowser, openApp, screenshot, type App } from "../support/app";
 import { Farm, sceneFolder } from "../support/farm";
-import { downloaded, placeOf, seen, showLayer, type Color, type Pixel } from "../support/picture";
+import { downloaded, nextFrame, placeOf, seen, showLayer, type Color, type Pixel } from "../support/picture";
 
 const size = { width: 80, height: 60 };
 const settings = ["--size", "80x60", "--spp", "4"];
@@ -43,6 +43,8 @@ beforeEach(async () => {
   page = app.page;
   await showLayer(page, job);
   await page.keyboard.press("v");
+  await rays().and(page.locator('[data-ready="true"]')).waitFor(); // the picture has its new size
+  await nextFrame(page);
 });
 afterEach(async () => {
   expect(app.complaints).toEqual([]);
@@ -118,8 +120,7 @@ describe("the 3D view", () => {
     expect(camera).toBeGreaterThan(50);
     expect(shadow).toBeGreaterThan(50);
     await page.getByRole("button", { name: "Shadow", exact: true }).click();
-    await settled(floor);
-    expect(await painted(yellow)).toBeLessThan(shadow / 4);
+    await expect.poll(() => painted(yellow)).toBeLessThan(shadow / 4);
     expect(await painted(red)).toBeGreaterThan(camera / 2);
   });
 
@@ -127,12 +128,11 @@ describe("the 3D view", () => {
     await probe(ball);
     const across = await painted(red);
     await page.getByRole("button", { name: "Keep aligned" }).click();
+    await expect.poll(() => painted(red)).toBeLessThan(across / 4);
     await settled(ball);
-    expect(await painted(red)).toBeLessThan(across / 4);
     await screenshot(page, "rays-aligned");
-    const next: Pixel = { x: 62, y: 50 };
-    await probe(next);
-    expect(await painted(red)).toBeLessThan(across / 4);
+    await probe({ x: 62, y: 50 });
+    await expect.poll(() => painted(red)).toBeLessThan(across / 4);
   });
 
   it("names the ray that is pointed at", async () => {
@@ -164,8 +164,7 @@ describe("the span chart", () => {
     await screenshot(page, "rays");
     const before = await painted([0x2f, 0xb8, 0xff]);
     await bars.first().focus();
-    await settled(ball);
-    expect(await painted([0x2f, 0xb8, 0xff])).toBeGreaterThan(before + 20);
+    await expect.poll(() => painted([0x2f, 0xb8, 0xff])).toBeGreaterThan(before + 20);
   });
 });
 

@@ -99,8 +99,8 @@ describe("a job of one's own script", () => {
     await page.locator("input[type=file]").setInputFiles(farm.file("ball.lua"));
     await page.getByText("The script can be rendered.").waitFor();
     await page.getByLabel("size", { exact: true }).fill("1.5");
-    await page.getByLabel("Width").fill("40");
-    await page.getByLabel("Height").fill("30");
+    await page.getByLabel("Width", { exact: true }).fill("40");
+    await page.getByLabel("Height", { exact: true }).fill("30");
     await submitButton(page).click();
     await isNow(page, "done");
     expect(await details(page).innerText()).toMatch(/ball[\s\S]*size\n1\.5/);

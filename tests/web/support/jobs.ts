@@ -11,10 +11,11 @@ export async function fillForm(
   job: { name: string; depth?: number; width?: number; height?: number; spp?: number; hold?: boolean },
 ): Promise<void> {
   await page.keyboard.press("Shift+N");
+  await page.getByRole("radio", { name: "The master's scenes" }).check();
   await page.getByRole("radio", { name: /^sphere_flake/ }).check();
   await page.getByLabel("depth", { exact: true }).fill(String(job.depth ?? 2));
-  await page.getByLabel("Width").fill(String(job.width ?? 80));
-  await page.getByLabel("Height").fill(String(job.height ?? 60));
+  await page.getByLabel("Width", { exact: true }).fill(String(job.width ?? 80));
+  await page.getByLabel("Height", { exact: true }).fill(String(job.height ?? 60));
   await page.getByLabel("Samples per pixel").fill(String(job.spp ?? 4));
   await page.getByLabel("Name", { exact: true }).fill(job.name);
   await page.getByLabel("Hold").setChecked(job.hold ?? false);

@@ -46,6 +46,16 @@ describe("the chart of the set operations", () => {
     });
   });
 
+  it("of a single crossing begins at the eye", () => {
+    const floor = {
+      leaves: [{ leaf: 1, name: "floor", stretches: [{ in: 7, out: null }] }],
+      material: [{ in: 7, out: null }],
+    };
+    const alone = chartOf(floor, 7);
+    expect(alone.from).toBe(0);
+    expect(alone.rows.map((row) => row.bars[0]!.from)).toEqual([7 / alone.to, 7 / alone.to]);
+  });
+
   it("of a ray that is inside for ever is one bar", () => {
     const always = {
       leaves: [{ leaf: 3, name: "a", stretches: [{ in: 0, out: null }] }],

@@ -14,7 +14,6 @@ import {
   pictureSize,
   pixelUnder,
   pointer,
-  pointer,
   screen,
   zoomBy,
 } from "./view_state";

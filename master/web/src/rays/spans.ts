@@ -31,9 +31,8 @@ export function chartOf(story: CsgStory, hitDistance: number | null): Chart {
   const first = marks.reduce((a, b) => Math.min(a, b), Infinity);
   const last = marks.reduce((a, b) => Math.max(a, b), 0) || 1;
   // What comes before the first crossing is left out where it would press the rest together.
-  const apart = (last - first) * 0.08;
-  const from =
-    first < Infinity && first > 0.5 * last && !stretches.some((s) => s.in === 0) ? first - apart : 0;
+  const apart = (last - first) * 0.08; // 0: a single crossing
+  const from = apart > 0 && first > 0.5 * last && !stretches.some((s) => s.in === 0) ? first - apart : 0;
   const to = last + (last - from) * 0.08;
 
   const barOf = (s: Stretch): Bar => ({
