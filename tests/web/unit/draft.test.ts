@@ -140,17 +140,24 @@ describe("a scene", () => {
 });
 
 describe("a clone", () => {
+  const job = (id: number, name: string): Job =>
+    ({ id, name, priority: 5, parameters: {}, settings: { ...emptyForm().switches } }) as Job;
+
   it("is filled in once, so that changes are not lost", () => {
-    const job = {
-      id: 9,
-      name: "flake",
-      priority: 5,
-      parameters: {},
-      settings: { ...emptyForm().switches },
-    } as Job;
-    prefill(job);
+    prefill(job(9, "flake"));
     change({ name: "changed" });
-    prefill(job);
+    prefill(job(9, "flake"));
     expect(form.value.name).toBe("changed");
+    prefill(job(10, "circus"));
+    expect(form.value.name).toBe("circus");
+  });
+
+  it("leaves nothing behind in the next new job, where what was typed stays", () => {
+    prefill(job(9, "flake"));
+    prefill(null);
+    expect(form.value).toEqual(emptyForm());
+    change({ name: "typed" });
+    prefill(null);
+    expect(form.value.name).toBe("typed");
   });
 });

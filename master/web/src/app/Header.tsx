@@ -37,7 +37,7 @@ export function Header() {
         {pages.map((entry) => (
           <a
             key={entry.page}
-            href={hashOf(routeTo(entry.page))}
+            href={entry.page === "submit" ? "#/submit" : hashOf(routeTo(entry.page))}
             aria-current={page.value === entry.page ? "page" : undefined}
           >
             {entry.title}

@@ -1,5 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
-import { jobs } from "../app/state";
+import { jobs, link } from "../app/state";
 import type { SceneEntry } from "../app/types";
 import { change, checked, faults, form, loadScenes, scenes, scenesFault, takeFile } from "./draft";
 import type { Source } from "./submission";
@@ -36,7 +36,10 @@ export function SceneChoice() {
 }
 
 function SceneList() {
-  useEffect(() => void loadScenes(), []);
+  const open = link.value === "open";
+  useEffect(() => {
+    if (open) void loadScenes(); // also of a master that was started anew
+  }, [open]);
   if (scenesFault.value)
     return (
       <p class="bad" role="alert">

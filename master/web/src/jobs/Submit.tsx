@@ -13,7 +13,8 @@ export function Submit() {
   useEffect(followScript, []);
   useEffect(() => {
     if (from) prefill(from);
-  }, [from?.id]);
+    else if (cloned.value === null) prefill(null);
+  }, [cloned.value, from?.id]);
   const fault = faults.value.source ?? Object.values(faults.value)[0];
   const scriptIsBroken = form.value.source === "script" && (!checked.value || "fault" in checked.value);
   return (

@@ -39,11 +39,12 @@ export const faults = computed(() => {
 });
 
 let prefilledFrom: number | null = null;
-/// Begins with a job's settings; once, so that what was changed since is not lost.
-export function prefill(job: Job): void {
-  if (prefilledFrom === job.id) return;
-  prefilledFrom = job.id;
-  form.value = formOf(job);
+/// Begins with a job's settings, or empty after those of another; once, so that what was changed since is kept.
+export function prefill(job: Job | null): void {
+  const from = job?.id ?? null;
+  if (from === prefilledFrom) return;
+  prefilledFrom = from;
+  form.value = job ? formOf(job) : emptyForm();
 }
 
 export const change = (part: Partial<Form>): void => void (form.value = { ...form.value, ...part });
