@@ -94,6 +94,7 @@ describe("the keyboard alone", () => {
   });
 
   it("asks for help, which lists every key once at each place", async () => {
+    await showLayer(page, job);
     await page.keyboard.press("v"); // the 3D view has keys of its own
     await page.keyboard.press("?");
     const dialog = page.getByRole("dialog", { name: "Keys" });
@@ -131,35 +132,39 @@ const windows = [1366, 2560].flatMap((width) => [false, true].map((dark) => ({ w
 
 describe.each(windows)("a window $width wide, dark: $dark", ({ width, dark }) => {
   const height = width === 1366 ? 768 : 1440;
-  const name = (view: string): string => `${view}-${width}${dark ? "-dark" : ""}`;
+  // Large screens are alike but for their room, of which one picture tells.
+  const shoot = async (view: string): Promise<void> => {
+    if (width === 1366) await screenshot(page, `${view}${dark ? "-dark" : "-light"}`);
+    else if (view === "jobs") await screenshot(page, `large-screen${dark ? "-dark" : "-light"}`);
+  };
 
   it("has room for every view, and each is in the theme's colours", async () => {
     await open({ width, height, dark });
     await showLayer(page, job);
     expect(await outside(page)).toEqual([]);
-    await screenshot(page, name("jobs"));
+    await shoot("jobs");
 
     await page.keyboard.press("v");
     await page.keyboard.press("i");
     await page.keyboard.press("Enter");
     await page.locator('section[data-scope="rays"][data-ready="true"]:not([data-pixel=""])').waitFor();
     expect(await outside(page)).toEqual([]);
-    await screenshot(page, name("rays"));
+    await shoot("rays");
 
     await page.keyboard.press("Shift+W");
     await page.getByRole("row", { name: /^lab1/ }).waitFor();
     expect(await outside(page)).toEqual([]);
-    await screenshot(page, name("workers"));
+    await shoot("workers");
 
     await fillForm(page, { name: "not sent" });
     expect(await outside(page)).toEqual([]);
-    await screenshot(page, name("submit"));
+    await shoot("submit");
 
     await page.locator("h1").click(); // out of the text fields
     await page.keyboard.press("?");
     await page.getByRole("dialog", { name: "Keys" }).waitFor();
     expect(await outside(page)).toEqual([]);
-    await screenshot(page, name("help"));
+    await shoot("help");
 
     const ground = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const [red] = /\d+/.exec(ground)!;

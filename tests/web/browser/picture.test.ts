@@ -118,7 +118,7 @@ describe("zoom", () => {
   it("into large pixels prints their values into them", async () => {
     const pixel = some[2]!;
     await hover(page, pixel, size);
-    for (let notch = 0; notch < 8; ++notch) {
+    for (let notch = 0; notch < 10; ++notch) {
       await page.keyboard.down("Shift");
       await page.mouse.wheel(0, -100);
       await page.keyboard.up("Shift");

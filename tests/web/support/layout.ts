@@ -49,7 +49,11 @@ export async function tabbed(page: Page): Promise<{ order: string[]; unmarked: s
     const [control, marked, words] = await page.evaluate(() => {
       const focus = document.activeElement as HTMLElement;
       const style = getComputedStyle(focus);
-      const isMarked = style.outlineStyle !== "none" || style.boxShadow !== "none";
+      const framed = [...focus.querySelectorAll("*")].some((each) => {
+        const after = getComputedStyle(each, "::after");
+        return after.content !== "none" && after.borderTopStyle !== "none";
+      });
+      const isMarked = style.outlineStyle !== "none" || style.boxShadow !== "none" || framed;
       return [focus.dataset.control, isMarked, focus.outerHTML.slice(0, 120)] as const;
     });
     if (control === undefined || order.includes(control)) return { order, unmarked };
