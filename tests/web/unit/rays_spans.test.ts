@@ -56,6 +56,14 @@ describe("the chart of the set operations", () => {
     expect(alone.rows.map((row) => row.bars[0]!.from)).toEqual([7 / alone.to, 7 / alone.to]);
   });
 
+  it("of crossings that differ by rounding alone has a width", () => {
+    const floor = { leaves: [{ leaf: 0, name: "floor", stretches: [{ in: 8.4, out: null }] }], material: [] };
+    const single = chartOf(floor, 8.4 * (1 + 1e-15));
+    expect(single.from).toBe(0);
+    expect(single.rows[0]!.bars[0]!.from).toBeGreaterThan(0.9);
+    expect(single.ticks.length).toBeGreaterThan(2);
+  });
+
   it("of a ray that is inside for ever is one bar", () => {
     const always = {
       leaves: [{ leaf: 3, name: "a", stretches: [{ in: 0, out: null }] }],

@@ -30,9 +30,9 @@ export function chartOf(story: CsgStory, hitDistance: number | null): Chart {
   if (hitDistance !== null) marks.push(hitDistance);
   const first = marks.reduce((a, b) => Math.min(a, b), Infinity);
   const last = marks.reduce((a, b) => Math.max(a, b), 0) || 1;
-  // What comes before the first crossing is left out where it would press the rest together.
-  const apart = (last - first) * 0.08; // 0: a single crossing
-  const from = apart > 0 && first > 0.5 * last && !stretches.some((s) => s.in === 0) ? first - apart : 0;
+  // What comes before the first crossing is left out where it would press the others together.
+  const pressed = first > 0.5 * last && last - first > 1e-6 * last && !stretches.some((s) => s.in === 0);
+  const from = pressed ? first - (last - first) * 0.08 : 0;
   const to = last + (last - from) * 0.08;
 
   const barOf = (s: Stretch): Bar => ({

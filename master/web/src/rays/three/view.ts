@@ -46,7 +46,9 @@ export function openView(canvas: HTMLCanvasElement, settled: (still: boolean) =>
   const ends = [
     effect(() => stage.setBackground(scene.value?.background ?? [0.02, 0.02, 0.025])),
     effect(() => {
-      if (pose.value) stage.invalidate();
+      isStill(); // reads where the view is and where it is going
+      settled(false);
+      stage.invalidate();
     }),
     inWorld(() => raysOf(segmentsShown.value, importanceAs.value)),
     inWorld(() =>
