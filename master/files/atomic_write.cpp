@@ -8,65 +8,16 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <string>
 
 #include "master/files/image_file.h"
 
 namespace rayfarm {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file) {
-  const int error = errno;
-  throw FileError(
-      "cannot write " + file.string() + ": " + std::strerror(error) +
-      (error == ENOSPC || error == EDQUOT || error == EFBIG ? "; make room or choose another place" : ""));
+std::filesystem::path target_of(const std::filesystem::path& file) {
+  std::error_code no_link;
+  return std::filesystem::is_symlink(file, no_link) ? std::filesystem::weakly_canonical(file) : file;
 }
-
-/// A file of a passing name in the target's folder; gone again unless it was renamed.
-class PassingFile {
- public:
-  explicit PassingFile(const std::filesystem::path& target)
-      : name_((target.parent_path() / ".rayfarm-XXXXXX").string()) {
-    descriptor_ = ::mkostemp(name_.data(), O_CLOEXEC);
-    if (descriptor_ < 0) fail(target);
-  }
-  ~PassingFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!renamed_) ::unlink(name_.c_str());
-  }
-  PassingFile(const PassingFile&) = delete;
-  PassingFile& operator=(const PassingFile&) = delete;
-
-  bool write(std::span<const std::uint8_t> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t n = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30));
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) return false;
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
-    return true;
-  }
-  /// The rights that open(2) would have given a new file, or those of the file it replaces.
-  bool take_rights_of(const std::filesystem::path& target) {
-    struct stat old {};
-    if (::stat(target.c_str(), &old) == 0) return ::fchmod(descriptor_, old.st_mode & 0777) == 0;
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    return ::fchmod(descriptor_, 0666 & ~mask) == 0;
-  }
-  bool sync_and_rename(const std::filesystem::path& target) {
-    if (::fsync(descriptor_) != 0) return false;
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    if (closed != 0 || ::rename(name_.c_str(), target.c_str()) != 0) return false;
-    return renamed_ = true;
-  }
-
- private:
-  std::string name_;
-  int descriptor_ = -1;
-  bool renamed_ = false;
-};
 
 /// The rename itself reaches the disk; some file systems cannot sync a folder, and lose nothing by it.
 void sync_folder(const std::filesystem::path& folder) {
@@ -78,15 +29,63 @@ void sync_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  std::error_code no_link;
-  const bool is_link = std::filesystem::is_symlink(file, no_link);
-  const std::filesystem::path target = is_link ? std::filesystem::weakly_canonical(file) : file;
+AtomicFile::AtomicFile(const std::filesystem::path& file)
+    : file_(file),
+      target_(target_of(file)),
+      passing_name_((target_.parent_path() / ".rayfarm-XXXXXX").string()) {
+  descriptor_ = ::mkostemp(passing_name_.data(), O_CLOEXEC);
+  if (descriptor_ < 0) fail();
+}
 
-  PassingFile passing(target);
-  if (!passing.write(bytes) || !passing.take_rights_of(target) || !passing.sync_and_rename(target))
-    fail(file);
-  sync_folder(target.parent_path());
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!renamed_) ::unlink(passing_name_.c_str());
+}
+
+void AtomicFile::fail() const {
+  const int error = errno;
+  throw FileError(
+      "cannot write " + file_.string() + ": " + std::strerror(error) +
+      (error == ENOSPC || error == EDQUOT || error == EFBIG ? "; make room or choose another place" : ""));
+}
+
+void AtomicFile::append(std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail();
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+void AtomicFile::put_at_start(std::span<const std::uint8_t> bytes) {
+  if (::lseek(descriptor_, 0, SEEK_SET) < 0) fail();
+  append(bytes);
+  if (::lseek(descriptor_, 0, SEEK_END) < 0) fail();
+}
+
+/// The rights that open(2) would have given a new file, or those of the file it replaces.
+bool AtomicFile::take_rights_of_target() {
+  struct stat old {};
+  if (::stat(target_.c_str(), &old) == 0) return ::fchmod(descriptor_, old.st_mode & 0777) == 0;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return ::fchmod(descriptor_, 0666 & ~mask) == 0;
+}
+
+void AtomicFile::commit() {
+  if (!take_rights_of_target() || ::fsync(descriptor_) != 0) fail();
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  if (closed != 0 || ::rename(passing_name_.c_str(), target_.c_str()) != 0) fail();
+  renamed_ = true;
+  sync_folder(target_.parent_path());
+}
+
+void write_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  AtomicFile whole(file);
+  whole.append(bytes);
+  whole.commit();
 }
 
 }  // namespace rayfarm

@@ -46,6 +46,33 @@ TEST(AtomicWrite, AFailedWriteLeavesTheOldFileAndNoOther) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(AtomicFile, AppearsWhenItIsCommittedWithWhatWasPutAtItsStartLast) {
+  const ScratchFolder folder;
+  put_content(folder / "a", "old");
+  AtomicFile file(folder / "a");
+  file.append(four_bytes);
+  file.put_at_start(std::vector<std::uint8_t>{7, 8});
+  file.append(std::vector<std::uint8_t>{5});
+  EXPECT_EQ(content_of(folder / "a"), "old");
+  file.commit();
+  EXPECT_EQ(content_of(folder / "a"), std::string("\7\10\3\4\5"));
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(AtomicFile, LeavesTheOldFileWhenItIsNotCommittedOrTheDiskIsFull) {
+  const ScratchFolder folder;
+  put_content(folder / "a", "old");
+  { AtomicFile(folder / "a").append(four_bytes); }
+  {
+    AtomicFile file(folder / "a");
+    const FileSizeLimit full_disk(6);
+    file.append(four_bytes);
+    EXPECT_THROW(file.append(four_bytes), FileError);
+  }
+  EXPECT_EQ(content_of(folder / "a"), "old");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
 TEST(AtomicWrite, AFolderInTheWayStaysAndNothingIsLeftBeside) {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder / "a");
