@@ -13,6 +13,7 @@ using Command = std::function<ExitCode()>;
 void add_render_command(CLI::App& app, Command& chosen);
 void add_stats_command(CLI::App& app, Command& chosen);
 void add_map_command(CLI::App& app, Command& chosen);
+void add_cloud_command(CLI::App& app, Command& chosen);
 void add_trace_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
 void add_submit_command(CLI::App& app, Command& chosen);

@@ -7,14 +7,12 @@
 
 namespace rayfarm {
 
-std::optional<LocalRender> render_locally(const World& world, const RenderSettings& settings,
-                                          unsigned threads, const std::function<bool()>& stop,
+std::optional<LocalRender> render_locally(Size size, unsigned threads, const RenderTile& render,
                                           const std::function<void(const Film&)>& progress) {
-  const Size size{settings.width, settings.height};
   LocalRender result{Film(size), {}};
   std::mutex mutex;  // guards result
-  const auto render = [&](std::uint32_t tile) {
-    const auto images = render_tile(world, settings, tile, all_passes, stop);
+  const auto work = [&](std::uint32_t tile) {
+    const auto images = render(tile);
     if (!images) return false;
     const std::lock_guard lock(mutex);
     for (const PassImage& image : *images) {
@@ -27,8 +25,17 @@ std::optional<LocalRender> render_locally(const World& world, const RenderSettin
     const std::lock_guard lock(mutex);
     progress(result.film);
   };
-  if (!each_tile(size, threads, render, show)) return std::nullopt;
+  if (!each_tile(size, threads, work, show)) return std::nullopt;
   return result;
+}
+
+std::optional<LocalRender> render_locally(const World& world, const RenderSettings& settings,
+                                          unsigned threads, const std::function<bool()>& stop,
+                                          const std::function<void(const Film&)>& progress) {
+  const auto render = [&](std::uint32_t tile) {
+    return render_tile(world, settings, tile, all_passes, stop);
+  };
+  return render_locally({settings.width, settings.height}, threads, render, progress);
 }
 
 }  // namespace rayfarm

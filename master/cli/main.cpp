@@ -88,6 +88,7 @@ int run_command_line(int argc, char** argv) {
   add_worker_commands(app, chosen);
   add_stats_command(app, chosen);
   add_map_command(app, chosen);
+  add_cloud_command(app, chosen);
   add_trace_command(app, chosen);
   add_compare_command(app, chosen);
   if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1])) return complain(app, argv[1]);

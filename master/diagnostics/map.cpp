@@ -4,20 +4,9 @@
 #include <chrono>
 #include <mutex>
 
-#include "common/render/pixel.h"
 #include "common/work/each_tile.h"
 
 namespace rayfarm {
-namespace {
-
-MapView view_of(const World& world, const RenderSettings& settings, bool compatible) {
-  const Size film{settings.width, settings.height};
-  const CameraRays camera(world.scene().camera, film);
-  return {axes_of(camera, film), camera.ray(0, 0).origin, compatible};
-}
-
-}  // namespace
-
 CameraAxes axes_of(const CameraRays& camera, Size film) {
   const double x = film.width, y = film.height;
   const auto towards = [&](double px, double py) { return camera.ray(px, py).direction; };
@@ -25,43 +14,47 @@ CameraAxes axes_of(const CameraRays& camera, Size film) {
           normalized(towards(x / 2, 0) - towards(x / 2, y)), towards(x / 2, y / 2)};
 }
 
+MapView view_of(const World& world, const RenderSettings& settings, bool compatible) {
+  const Size film{settings.width, settings.height};
+  const CameraRays camera(world.scene().camera, film);
+  return {axes_of(camera, film), camera.ray(0, 0).origin, compatible};
+}
+
 PixelMapper::PixelMapper(const World& world, const RenderSettings& settings, const MapRequest& request)
     : settings_(settings),
-      world_(world.parts()),
       request_(request),
       view_(view_of(world, settings, request.compatible)),
-      tracer_(world, settings) {
+      tracer_(world, settings, PixelObserver(world, settings, request.reduction)) {
   assert(request.kind->put && "the farm has the values of this map");
 }
 
 bool PixelMapper::put(Pixel pixel, float* into, const std::function<bool()>& stop) {
-  const std::optional<PixelFacts> facts =
-      request_.kind->source == MapSource::surfaces ? surface_facts(pixel, stop) : ray_facts(pixel, stop);
-  if (facts) request_.kind->put(*facts, view_, into);
-  return facts.has_value();
-}
-
-std::optional<PixelFacts> PixelMapper::ray_facts(Pixel pixel, const std::function<bool()>& stop) {
-  tracer_.observer = {};
+  // Where an adaptive sampler puts its samples depends on all that they show.
+  const bool first_hits_do = request_.kind->source == MapSource::surfaces && !is_adaptive(settings_.sampler);
+  tracer_.observer.begin_pixel();
   const auto begin = std::chrono::steady_clock::now();
-  if (!pixel_sum(tracer_, settings_, pixel, stop)) return std::nullopt;
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  return PixelFacts{tracer_.observer.counters, std::nullopt, taken.count()};
+  if (!(first_hits_do ? trace_first_hits(pixel, stop) : trace_all(pixel, stop))) return false;
+  PixelFacts facts = tracer_.observer.facts();
+  facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  request_.kind->put(facts, view_, into);
+  return true;
 }
 
-std::optional<PixelFacts> PixelMapper::surface_facts(Pixel pixel, const std::function<bool()>& stop) {
-  if (stop()) return std::nullopt;
+bool PixelMapper::trace_all(Pixel pixel, const std::function<bool()>& stop) {
+  return visit_samples(tracer_, settings_, pixel, stop,
+                       [&](const TakenSample& sample) { tracer_.observer.visited(sample); });
+}
+
+bool PixelMapper::trace_first_hits(Pixel pixel, const std::function<bool()>& stop) {
+  constexpr std::uint32_t samples_between_questions = 256;
   const PixelSampler sampler(settings_, pixel);
-  std::vector<SurfaceSample> hits;
   for (std::uint32_t s = 0; s < settings_.spp; ++s) {
+    if (s % samples_between_questions == 0 && stop()) return false;
     const Sample2D place = sampler.sample(s, 0);
-    if (const auto hit = tracer_.first_hit(pixel.x + place.u, pixel.y + place.v))
-      hits.push_back(surface_sample(world_, *hit));
+    tracer_.observer.traced(RayKind::primary, {}, 0, 1,
+                            tracer_.first_hit(pixel.x + place.u, pixel.y + place.v));
   }
-  PixelFacts facts;
-  facts.rays.primary = settings_.spp, facts.rays.primary_hits = hits.size();
-  if (request_.kind->reduces) facts.surface = reduced(hits, settings_.spp, request_.reduction);
-  return facts;
+  return true;
 }
 
 std::optional<Map> map_of(const World& world, const RenderSettings& settings, const MapRequest& request,

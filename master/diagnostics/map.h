@@ -6,8 +6,7 @@
 
 #include "common/render/camera_rays.h"
 #include "common/render/settings.h"
-#include "common/render/trace.h"
-#include "master/diagnostics/map_kind.h"
+#include "master/diagnostics/collect.h"
 
 namespace rayfarm {
 
@@ -26,6 +25,7 @@ struct Map {
 };
 
 CameraAxes axes_of(const CameraRays& camera, Size film);
+MapView view_of(const World& world, const RenderSettings& settings, bool compatible);
 
 /// The values of one pixel after another, in one thread. Only what the map asks for is traced.
 class PixelMapper {
@@ -37,14 +37,13 @@ class PixelMapper {
   bool put(Pixel pixel, float* into, const std::function<bool()>& stop);
 
  private:
-  std::optional<PixelFacts> surface_facts(Pixel pixel, const std::function<bool()>& stop);
-  std::optional<PixelFacts> ray_facts(Pixel pixel, const std::function<bool()>& stop);
+  bool trace_first_hits(Pixel pixel, const std::function<bool()>& stop);
+  bool trace_all(Pixel pixel, const std::function<bool()>& stop);
 
   const RenderSettings& settings_;
-  const World::Parts& world_;
   MapRequest request_;
   MapView view_;
-  Tracer<CountingObserver> tracer_;
+  Tracer<PixelObserver> tracer_;
 };
 
 /// Nothing is returned when stop() said so; it is asked from all threads.

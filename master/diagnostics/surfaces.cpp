@@ -1,54 +1,21 @@
 #include "master/diagnostics/surfaces.h"
 
 #include <algorithm>
-#include <array>
-#include <span>
 
 namespace rayfarm {
 namespace {
-
-/// The axis faces of a cube and the caps of a cylinder by their normals; 0 for what is round.
-std::uint32_t face_of(const Leaf& leaf, const Vec3d& normal) {
-  const bool cube = std::holds_alternative<Cube>(leaf.solid);
-  if (!cube && !std::holds_alternative<Cylinder>(leaf.solid)) return 0;
-  for (int axis = cube ? 0 : 2; axis < 3; ++axis) {
-    Vec3d local;
-    local[axis] = 1;
-    const Vec3d world = normal_to_world(leaf, local);
-    if (normal == world) return 2 * static_cast<std::uint32_t>(axis) + 1;
-    if (normal == -world) return 2 * static_cast<std::uint32_t>(axis) + 2;
-  }
-  return 0;
-}
 
 /// Two points of one smooth sheet see each other at a small angle to both tangent planes; two sheets, one
 /// behind the other, do not: at a fold the near one is seen edge-on, the far one from the front.
 bool on_one_sheet(const SurfaceSample& a, const SurfaceSample& b) {
   constexpr double steepest = 0.8;  // sine: a sheet may turn by 90 degrees (0.71) within the pixel
   const Vec3d between = b.point - a.point;
-  const double most = steepest * length(between);
-  return std::fabs(dot(a.normal, between)) <= most && std::fabs(dot(b.normal, between)) <= most;
-}
-
-Surface mean_of(std::span<const SurfaceSample> samples) {
-  Surface surface{samples[0].leaf, samples[0].face, static_cast<std::uint32_t>(samples.size()), 0, {}, {}};
-  Vec3d normals;
-  for (const SurfaceSample& s : samples) {
-    surface.distance += s.distance;
-    surface.point += s.point;
-    normals += s.normal;
-  }
-  const double share = 1.0 / static_cast<double>(samples.size());
-  surface.distance *= share;
-  surface.point = surface.point * share;
-  // Opposite normals cancel out; then one of them stands for all.
-  surface.normal = length(normals) > 0 ? normalized(normals) : samples[0].normal;
-  return surface;
+  const double rise_a = dot(a.normal, between), rise_b = dot(b.normal, between);
+  const double most = steepest * steepest * dot(between, between);
+  return rise_a * rise_a <= most && rise_b * rise_b <= most;
 }
 
 constexpr std::array<std::string_view, 4> reduction_names{"majority", "mean", "closest", "median"};
-
-bool closer(const SurfaceSample& a, const SurfaceSample& b) { return a.distance < b.distance; }
 
 }  // namespace
 
@@ -60,50 +27,143 @@ std::optional<Reduction> reduction_named(std::string_view name) {
 
 std::string_view name_of(Reduction reduction) { return reduction_names[static_cast<std::size_t>(reduction)]; }
 
-SurfaceSample surface_sample(const World::Parts& world, const Hit& hit) {
-  return {hit.leaf, face_of(world.leaves[hit.leaf], hit.normal), hit.t, hit.point, hit.normal};
+void PixelSurfaces::Sums::add(const SurfaceSample& s, std::uint32_t times) {
+  const double factor = times;
+  weight += times;
+  distance += factor * s.distance;
+  point += factor * s.point;
+  normal += factor * s.normal;
 }
 
-std::vector<Surface> ranked_surfaces(std::vector<SurfaceSample> samples) {
-  std::sort(samples.begin(), samples.end(), [](const SurfaceSample& a, const SurfaceSample& b) {
-    return a.leaf != b.leaf ? a.leaf < b.leaf : a.face != b.face ? a.face < b.face : closer(a, b);
-  });
-  std::vector<Surface> surfaces;
-  for (std::size_t first = 0, next = 0; first < samples.size(); first = next) {
-    for (next = first + 1; next < samples.size(); ++next)
-      if (samples[next].leaf != samples[first].leaf || samples[next].face != samples[first].face ||
-          !on_one_sheet(samples[next - 1], samples[next]))
-        break;
-    surfaces.push_back(mean_of(std::span(samples).subspan(first, next - first)));
+PixelSurfaces::Sums& PixelSurfaces::Sums::operator+=(const Sums& o) {
+  weight += o.weight, distance += o.distance;
+  point += o.point, normal += o.normal;
+  return *this;
+}
+
+Surface PixelSurfaces::Sums::mean(const SurfaceSample& any) const {
+  const auto all = static_cast<double>(weight);
+  // Opposite normals cancel out; then one of them stands for all.
+  const bool cancelled = normal == Vec3d{};
+  return {any.leaf, weight, distance / all, point * (1 / all), cancelled ? any.normal : normalized(normal)};
+}
+
+void PixelSurfaces::clear() {
+  count_ = last_ = 0;
+  rest_ = {};
+  closest_.distance = infinity;
+  samples_.clear();
+}
+
+void PixelSurfaces::add(const SurfaceSample& sample, std::uint32_t weight) {
+  if (sample.distance < closest_.distance) closest_ = sample;
+  if (reduction_ == Reduction::median) samples_.push_back({sample, weight});
+  const auto add_to = [&](std::size_t i) {
+    ranks_[i].sums.add(sample, weight);
+    ranks_[i].lead += weight;
+    last_ = i;
+  };
+  if (last_ < count_ && shows(ranks_[last_], sample)) return add_to(last_);
+  for (std::size_t i = 0; i < count_; ++i)
+    if (i != last_ && shows(ranks_[i], sample)) return add_to(i);
+  add_new(sample, weight);
+}
+
+void PixelSurfaces::add_new(const SurfaceSample& sample, std::uint32_t weight) {
+  std::uint64_t lead = weight;
+  if (count_ < most) {
+    last_ = count_++;
+  } else {
+    const auto weakest = std::min_element(ranks_.begin(), ranks_.end(), [](const Rank& a, const Rank& b) {
+      return a.lead != b.lead ? a.lead < b.lead : a.sums.weight < b.sums.weight;
+    });
+    const std::uint64_t set_off = std::min<std::uint64_t>(weight, weakest->lead);
+    for (Rank& rank : ranks_) rank.lead -= set_off;
+    lead -= set_off;
+    if (lead == 0) return rest_.add(sample, weight);
+    rest_ += weakest->sums;
+    last_ = static_cast<std::size_t>(weakest - ranks_.begin());
   }
-  std::stable_sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
-    return a.samples != b.samples ? a.samples > b.samples : a.distance < b.distance;
+  ranks_[last_] = {sample, is_cap(sample), {}, lead};
+  ranks_[last_].sums.add(sample, weight);
+}
+
+bool PixelSurfaces::is_cap(const SurfaceSample& sample) const {
+  const Leaf& leaf = world_->leaves[sample.leaf];
+  if (!std::holds_alternative<Cylinder>(leaf.solid)) return false;
+  const Vec3d& axis = leaf.row[2];  // normals of the caps lie along it, those of the side never
+  const double along = dot(sample.normal, axis);
+  return along * along > (1 - 1e-12) * dot(axis, axis);
+}
+
+/// Whether the sample lies on the rank's face, and on the same sheet of it.
+bool PixelSurfaces::shows(const Rank& rank, const SurfaceSample& sample) const {
+  if (sample.leaf != rank.first.leaf) return false;
+  if (sample.normal != rank.first.normal) {
+    const Leaf& leaf = world_->leaves[sample.leaf];
+    if (std::holds_alternative<Cube>(leaf.solid)) return false;
+    if (rank.is_cap || is_cap(sample)) return false;
+  }
+  return on_one_sheet(rank.first, sample);
+}
+
+std::vector<Surface> PixelSurfaces::ranked() const {
+  std::vector<Surface> surfaces;
+  for (std::size_t i = 0; i < count_; ++i) surfaces.push_back(ranks_[i].sums.mean(ranks_[i].first));
+  std::sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.distance < b.distance;
   });
   return surfaces;
 }
 
-std::optional<Surface> reduced(const std::vector<SurfaceSample>& hits, std::uint32_t all,
-                               Reduction reduction) {
-  if (hits.empty()) return std::nullopt;
-  const auto missed = all - static_cast<std::uint32_t>(hits.size());
-  switch (reduction) {
-    case Reduction::majority: {
-      const Surface most = ranked_surfaces(hits)[0];
-      if (most.samples < missed) return std::nullopt;
-      return most;
-    }
+PixelSurfaces::Sums PixelSurfaces::all_sums() const {
+  Sums all = rest_;
+  for (std::size_t i = 0; i < count_; ++i) all += ranks_[i].sums;
+  return all;
+}
+
+std::uint64_t PixelSurfaces::hit_weight() const {
+  std::uint64_t weight = rest_.weight;
+  for (std::size_t i = 0; i < count_; ++i) weight += ranks_[i].sums.weight;
+  return weight;
+}
+
+std::optional<Surface> PixelSurfaces::reduced(std::uint64_t all) const {
+  if (count_ == 0) return std::nullopt;
+  switch (reduction_) {
+    case Reduction::majority:
+      return majority(all - hit_weight());
     case Reduction::mean:
-      return mean_of(hits);
+      return all_sums().mean(ranks_[0].first);
     case Reduction::closest:
-      return mean_of({&*std::min_element(hits.begin(), hits.end(), closer), 1});
-    case Reduction::median: {
-      const std::size_t middle = (std::size_t{all} - 1) / 2;
-      if (middle >= hits.size()) return std::nullopt;
-      std::vector<SurfaceSample> sorted = hits;
-      std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(middle), sorted.end(),
-                       closer);
-      return mean_of({&sorted[middle], 1});
-    }
+      return Surface{closest_.leaf, 1, closest_.distance, closest_.point, closest_.normal};
+    case Reduction::median:
+      return median(all);
+  }
+  return std::nullopt;
+}
+
+std::optional<Surface> PixelSurfaces::majority(std::uint64_t missed) const {
+  std::size_t best = 0;
+  const auto mean_distance = [&](std::size_t i) {
+    return ranks_[i].sums.distance / static_cast<double>(ranks_[i].sums.weight);
+  };
+  for (std::size_t i = 1; i < count_; ++i) {
+    const std::uint64_t weight = ranks_[i].sums.weight, most_yet = ranks_[best].sums.weight;
+    if (weight > most_yet || (weight == most_yet && mean_distance(i) < mean_distance(best))) best = i;
+  }
+  if (ranks_[best].sums.weight < missed) return std::nullopt;
+  return ranks_[best].sums.mean(ranks_[best].first);
+}
+
+std::optional<Surface> PixelSurfaces::median(std::uint64_t all) const {
+  std::vector<Weighed> sorted = samples_;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Weighed& a, const Weighed& b) { return a.sample.distance < b.sample.distance; });
+  std::uint64_t before = 0;
+  for (const auto& [s, weight] : sorted) {
+    before += weight;
+    if (2 * before >= all) return Surface{s.leaf, weight, s.distance, s.point, s.normal};
   }
   return std::nullopt;
 }

@@ -85,13 +85,13 @@ TEST(Map, ANormalAtAnEdgeIsThatOfTheSurfaceThatMostSamplesShow) {
       const auto surfaces = [&](const RenderSettings& s) {
         Tracer<CountingObserver> tracer(world, s);
         const PixelSampler sampler(s, {x, y});
-        std::vector<SurfaceSample> hits;
+        PixelSurfaces found(world, Reduction::majority);
         for (std::uint32_t i = 0; i < s.spp; ++i) {
           const Sample2D place = sampler.sample(i, 0);
           if (const auto hit = tracer.first_hit(x + place.u, y + place.v))
-            hits.push_back(surface_sample(world.parts(), *hit));
+            found.add(surface_sample(*hit), 1);
         }
-        return ranked_surfaces(hits);
+        return found.ranked();
       };
       const std::vector<Surface> seen = surfaces(few);
       if (seen.size() < 2) continue;
@@ -105,45 +105,6 @@ TEST(Map, ANormalAtAnEdgeIsThatOfTheSurfaceThatMostSamplesShow) {
     }
   EXPECT_GT(edges, 20);
   EXPECT_LE(error_sum / edges, 1.0);  // degrees
-}
-
-TEST(Surfaces, EachSampleBelongsToOneAndTheRanksDescend) {
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const World world(random_snapped_scene(seed));
-    const RenderSettings s = small_settings();
-    Tracer<CountingObserver> tracer(world, s);
-    for (std::uint32_t y = 0; y < s.height; y += 3) {
-      std::vector<SurfaceSample> hits;
-      for (std::uint32_t x = 0; x < s.width; ++x)
-        if (const auto hit = tracer.first_hit(x + 0.5, y + 0.5))
-          hits.push_back(surface_sample(world.parts(), *hit));
-      std::size_t sum = 0;
-      std::uint32_t last = s.width;
-      for (const Surface& surface : ranked_surfaces(hits)) {
-        EXPECT_LE(surface.samples, last);
-        EXPECT_NEAR(length(surface.normal), 1, 1e-12);
-        last = surface.samples;
-        sum += surface.samples;
-      }
-      EXPECT_EQ(sum, hits.size());
-    }
-  }
-}
-
-TEST(Surfaces, AFaceThatComesIntoViewTwiceIsTwoSurfaces) {
-  // A torus seen from the side: its tube edge-on, and its far side from the front.
-  const SurfaceSample near_1{0, 0, 4.00, {0, 0.25, 4}, {0, 1, 0}},
-      near_2{0, 0, 4.01, {0.01, 0.25, 4.01}, {0, 1, 0}};
-  const SurfaceSample far{0, 0, 6, {0, 0.26, 6}, {0, 0, -1}};
-  const std::vector<Surface> surfaces = ranked_surfaces({far, near_2, near_1});
-  ASSERT_EQ(surfaces.size(), 2u);
-  EXPECT_EQ(surfaces[0].samples, 2u);
-  EXPECT_EQ(surfaces[1].distance, 6);
-}
-
-TEST(Surfaces, OfEquallyManyTheCloserOneIsFirst) {
-  const SurfaceSample a{0, 0, 5, {0, 0, 5}, {0, 0, -1}}, b{1, 0, 3, {0, 0, 3}, {0, 0, -1}};
-  EXPECT_EQ(ranked_surfaces({a, b})[0].leaf, 1u);
 }
 
 TEST(Map, CountsAddUpToTheStatistics) {
