@@ -107,7 +107,6 @@ describe("the keyboard alone", () => {
     );
     expect(keys.length).toBeGreaterThan(40);
     expect(keys.filter((key, index) => keys.indexOf(key) !== index)).toEqual([]);
-    await screenshot(page, "help");
     await page.keyboard.press("Escape");
     expect(await dialog.count()).toBe(0);
   });

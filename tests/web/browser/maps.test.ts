@@ -69,6 +69,14 @@ async function table(map: string, ...options: string[]): Promise<{ file: Buffer;
   return { file, rows: rowsOf(file) };
 }
 
+/// What only a job has: the app's table, which is that of the command.
+async function savedTable(map: string): Promise<number[][]> {
+  const { bytes } = await downloaded(page, () => saveAs("CSV"));
+  await farm.rayfarm("map", map, "--job", String(job), "-o", `${map}.csv`);
+  expect(bytes.toString()).toBe(readFileSync(farm.file(`${map}.csv`)).toString());
+  return rowsOf(bytes);
+}
+
 /// What the readout says of a value, as a number.
 interface Kind {
   channels: number;
@@ -104,7 +112,7 @@ describe.each(Object.entries(kinds))("the %s map", (map, { channels, of }) => {
 describe("the cost map", () => {
   it("tells times in units that people read, as many as the table has seconds", async () => {
     await showLayer(page, job, "cost");
-    const rows = rowsOf((await downloaded(page, () => saveAs("CSV"))).bytes);
+    const rows = await savedTable("cost");
     const units: Record<string, number> = { "µs": 1e-6, ms: 1e-3, s: 1 };
     for (const { x, y } of some) {
       const [, number, unit] = /^([\d.]+) (µs|ms|s)$/.exec(await hover(page, { x, y }, size))!;
@@ -117,7 +125,7 @@ describe("the cost map", () => {
 describe("the worker map", () => {
   it("names who rendered each pixel, and everybody's share", async () => {
     await showLayer(page, job, "worker");
-    const rows = rowsOf((await downloaded(page, () => saveAs("CSV"))).bytes);
+    const rows = await savedTable("worker");
     const items = page.locator(".labels li");
     const names = await items.locator(".name").allInnerTexts();
     const workers = await farm.rayfarm("workers");

@@ -48,7 +48,6 @@ function colorsIn(image: Seen): number {
 describe("a job of the master's scenes", () => {
   it("is rendered with the parameters of the form", async () => {
     await fillForm(page, { name: "small flake", depth: 2 });
-    await screenshot(page, "submit");
     await submitButton(page).click();
     await isNow(page, "done");
     expect(await details(page).innerText()).toMatch(
@@ -73,7 +72,7 @@ describe("a job of the master's scenes", () => {
     await allShown(page);
     expect(await pixels.innerText()).toContain("100 %");
     expect(colorsIn(await seen(canvas(page)))).toBeGreaterThan(100);
-    await screenshot(page, "jobs");
+    await screenshot(page, "picture-done");
   });
 
   it("is not sent while a parameter or a setting is wrong, and the form says why", async () => {
