@@ -50,8 +50,37 @@ function CounterTable({ statistics }: { statistics: JobStatistics }) {
   );
 }
 
+/// What a ray of each kind was tested against, in the mean.
+function TestsTable({ tests }: { tests: NonNullable<JobStatistics["detail"]["tests"]> }) {
+  const kinds = Object.keys(tests);
+  return (
+    <table class="figures">
+      <thead>
+        <tr>
+          <th scope="col">tests a ray</th>
+          {kinds.map((kind) => (
+            <th key={kind} scope="col">
+              {kind}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        {["boxes", "leaves", "crossings"].map((what) => (
+          <tr key={what} data-tests={what}>
+            <th scope="row">{what}</th>
+            {kinds.map((kind) => (
+              <td key={kind}>{plain(tests[kind]![`${what}_per_ray`] ?? 0, 3)}</td>
+            ))}
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
 function Detail({ statistics }: { statistics: JobStatistics }) {
-  const { detail, counters } = statistics;
+  const { detail } = statistics;
   if (detail.state === "unavailable")
     return <p class="quiet">{detail.message || "Hits and tests of this job cannot be counted any more."}</p>;
   if (detail.state === "making")
@@ -60,16 +89,7 @@ function Detail({ statistics }: { statistics: JobStatistics }) {
   const most = hits[0]?.hits ?? 1;
   return (
     <>
-      <table class="figures">
-        <tbody>
-          {Object.entries(detail.tests ?? {}).map(([name, tests]) => (
-            <tr key={name}>
-              <th scope="row">{name.replaceAll("_", " ")} a ray</th>
-              <td>{plain(tests / Math.max(1, counters.rays ?? 1), 4)}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      {detail.tests && <TestsTable tests={detail.tests} />}
       <h4>Hits by solid</h4>
       <ul class="hits">
         {hits.slice(0, 40).map((each) => (

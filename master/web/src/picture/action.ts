@@ -8,3 +8,13 @@ export const act = (
   run: () => void,
   enabled: () => boolean = () => true,
 ): Action => ({ id, title, group: "Picture", keys, run, enabled });
+
+/// What hands do without keys: told in the help beside the actions, done where the pointer is.
+export const gesture = (id: string, title: string, hands: string[]): Action =>
+  act(
+    `gesture-${id}`,
+    title,
+    hands,
+    () => undefined,
+    () => false,
+  );

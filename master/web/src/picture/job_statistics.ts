@@ -10,7 +10,7 @@ export interface JobStatistics {
     message?: string;
     counters?: Record<string, number>;
     hits?: { leaf: number; name: string; hits: number }[];
-    tests?: Record<string, number>;
+    tests?: Record<string, Record<string, number>>; // by kind of ray
   };
 }
 

@@ -1,7 +1,7 @@
 // Zoom, pan, and the cursor that probes without a pointer.
 import type { Action } from "../app/actions";
 import { probed, type Pixel } from "../app/state";
-import { act } from "./action";
+import { act, gesture } from "./action";
 import { bigZoomStep, zoomStep } from "./gestures";
 import { selection } from "./selection";
 import {
@@ -57,7 +57,18 @@ const arrowActions = Object.entries(directions).flatMap(([name, [x, y]]): Action
   ];
 });
 
+const gestures: Action[] = [
+  gesture("zoom", "Zoom at the pointer; with Shift in large steps", ["Wheel", "Shift+Wheel", "Pinch"]),
+  gesture("pan", "Pan", ["Drag", "Middle drag"]),
+  gesture("fit", "All of the picture, or 100 % at the pointer", ["Double click"]),
+  gesture("probe", "Probe the pixel", ["Click"]),
+  gesture("scrub", "Probe the pixels along the way", ["Ctrl+Drag", "Right drag"]),
+  gesture("select", "Select a rectangle", ["Shift+Drag"]),
+  gesture("flip", "Show the reference", ["Shift+hold"]),
+];
+
 export const viewActions: Action[] = [
+  ...gestures,
   act("zoom-in", "Zoom in", ["+", "=", "PageUp"], () => zoomBy(zoomStep)),
   act("zoom-out", "Zoom out", ["-", "PageDown"], () => zoomBy(1 / zoomStep)),
   act("zoom-in-far", "Zoom in, large step", ["Shift+PageUp"], () => zoomBy(bigZoomStep)),
