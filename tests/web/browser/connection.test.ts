@@ -3,7 +3,7 @@ import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { closeBrowser, openApp, screenshot, type App } from "../support/app";
 import { Farm } from "../support/farm";
-import { fillForm, isNow, listed, submitButton } from "../support/jobs";
+import { fillForm, isNow, listed, submit, submitButton } from "../support/jobs";
 import { allShown, canvas, seen, showLayer } from "../support/picture";
 
 let farm: Farm;
@@ -44,7 +44,7 @@ describe("a master that is killed", () => {
     await connected().waitFor();
     await expect.poll(() => listed(page).count()).toBe(0); // this master keeps nothing
     await fillForm(page, { name: "after the restart" });
-    await submitButton(page).click();
+    await submit(page, "after the restart");
     await isNow(page, "done");
     await allShown(page);
     const colors = new Set([...(await seen(canvas(page))).colors()].map(String));

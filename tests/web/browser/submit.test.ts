@@ -4,7 +4,7 @@ import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { closeBrowser, openApp, screenshot, type App } from "../support/app";
 import { Farm } from "../support/farm";
-import { details, fillForm, isNow, submitButton } from "../support/jobs";
+import { details, fillForm, isNow, submit, submitButton } from "../support/jobs";
 import { allShown, canvas, numbersIn, seen, type Seen } from "../support/picture";
 
 const script = `local size = param{ "size", type = "number", default = 1, min = 0.5, max = 2 }
@@ -48,7 +48,7 @@ function colorsIn(image: Seen): number {
 describe("a job of the master's scenes", () => {
   it("is rendered with the parameters of the form", async () => {
     await fillForm(page, { name: "small flake", depth: 2 });
-    await submitButton(page).click();
+    await submit(page, "small flake");
     await isNow(page, "done");
     expect(await details(page).innerText()).toMatch(
       /small flake[\s\S]*80 × 60[\s\S]*4 per pixel, sobol[\s\S]*depth\n2/,
@@ -57,8 +57,8 @@ describe("a job of the master's scenes", () => {
   });
 
   it("is seen before it is finished, can be paused, and becomes the exact picture", async () => {
-    await fillForm(page, { name: "watched flake", depth: 5, width: 160, height: 120, spp: 1024 });
-    await submitButton(page).click();
+    await fillForm(page, { name: "watched flake", depth: 5, width: 160, height: 120, spp: 128 });
+    await submit(page, "watched flake");
     await page.locator('section.picture[data-layer-state="making"] .picture-stage[data-ready="true"]').waitFor();
     await page.getByRole("button", { name: "Pause" }).click();
     await isNow(page, "paused");
@@ -100,7 +100,7 @@ describe("a job of one's own script", () => {
     await page.getByLabel("size", { exact: true }).fill("1.5");
     await page.getByLabel("Width", { exact: true }).fill("40");
     await page.getByLabel("Height", { exact: true }).fill("30");
-    await submitButton(page).click();
+    await submit(page, "ball");
     await isNow(page, "done");
     expect(await details(page).innerText()).toMatch(/ball[\s\S]*size\n1\.5/);
   });
@@ -126,14 +126,13 @@ describe("a job of one's own script", () => {
 describe("a cloned job", () => {
   it("has another's very scene and settings, but for what is changed", async () => {
     await fillForm(page, { name: "original", depth: 3 });
-    await submitButton(page).click();
+    await submit(page, "original");
     await isNow(page, "done");
     const hash = await details(page).locator("code").getAttribute("title");
     await page.getByRole("button", { name: "Clone" }).click();
     await page.getByLabel("Samples per pixel").fill("9");
     await page.getByLabel("Name", { exact: true }).fill("copy");
-    await submitButton(page).click();
-    await details(page).getByRole("heading", { name: "copy" }).waitFor();
+    await submit(page, "copy");
     await isNow(page, "done");
     expect(await details(page).innerText()).toMatch(/80 × 60[\s\S]*9 per pixel, sobol[\s\S]*depth\n3/);
     expect(await details(page).locator("code").getAttribute("title")).toBe(hash);

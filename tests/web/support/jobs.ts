@@ -21,6 +21,12 @@ export async function fillForm(
   await page.getByLabel("Hold").setChecked(job.hold ?? false);
 }
 
+/// Submits the form; the new job is chosen then.
+export async function submit(page: Page, name: string): Promise<void> {
+  await submitButton(page).click();
+  await details(page).getByRole("heading", { name, exact: true }).waitFor();
+}
+
 /// Waits until the job that is chosen is in that state.
 export const isNow = (page: Page, state: string): Promise<void> =>
   details(page).getByText(state, { exact: true }).waitFor();
