@@ -50,16 +50,17 @@ describe("figures of an area", () => {
 describe("a histogram", () => {
   const values = Array.from({ length: 100 }, (_, i) => i);
   const data = layerOf(10, 10, 1, values);
+  const between = (low: number, high: number) => (value: number) => (value - low) / (high - low);
 
   it("counts each value within its range once", () => {
-    const { counts } = histogramOf(data, 0, whole(data), 0, 99, 7);
+    const counts = histogramOf(data, 0, whole(data), between(0, 99), 7);
     expect(counts.reduce((a, b) => a + b)).toBe(100);
-    expect(histogramOf(data, 0, whole(data), 10, 19, 10).counts).toEqual(Array(10).fill(1));
+    expect(histogramOf(data, 0, whole(data), between(9.5, 19.5), 10)).toEqual(Array(10).fill(1));
   });
 
-  it("has one value in its first part", () => {
-    const flat = layerOf(2, 1, 1, [3, 3]);
-    expect(histogramOf(flat, 0, whole(flat), 3, 3, 4).counts).toEqual([2, 0, 0, 0]);
+  it("has parts that are equal on the scale it is given", () => {
+    const powers = layerOf(5, 1, 1, [1, 10, 100, 1000, Infinity]);
+    expect(histogramOf(powers, 0, whole(powers), (value) => Math.log10(value) / 3, 3)).toEqual([1, 1, 2]);
   });
 });
 

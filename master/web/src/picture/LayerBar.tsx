@@ -1,12 +1,9 @@
 import { layer, maps } from "../app/state";
-import type { Reduction } from "../app/types";
 import { currentEntry } from "./compare";
 import { shownMap } from "./display";
 import { results, step } from "./history";
 import { chooseLayer } from "./display_actions";
 import { save } from "./save";
-
-const reductions: Reduction[] = ["majority", "mean", "closest", "median"];
 
 function Tab({ name, title, help }: { name: string; title: string; help: string }) {
   const chosen = layer.value.layer === name;
@@ -34,43 +31,6 @@ function Tab({ name, title, help }: { name: string; title: string; help: string 
     >
       {title}
     </button>
-  );
-}
-
-/// How a map is made of many samples, and by whose formula.
-function MapChoices() {
-  const map = shownMap.value;
-  if (!map) return null;
-  return (
-    <>
-      {map.reduces && (
-        <label title="Which value a pixel gets whose samples met several surfaces">
-          <select
-            aria-label="Reduction"
-            value={layer.value.reduce}
-            onChange={(event) =>
-              (layer.value = { ...layer.peek(), reduce: event.currentTarget.value as Reduction })
-            }
-          >
-            {reductions.map((each) => (
-              <option key={each} value={each}>
-                {each}
-              </option>
-            ))}
-          </select>
-        </label>
-      )}
-      {map.compat && (
-        <label class="check" title="The original renderer's formula">
-          <input
-            type="checkbox"
-            checked={layer.value.compat}
-            onChange={(event) => (layer.value = { ...layer.peek(), compat: event.currentTarget.checked })}
-          />
-          original
-        </label>
-      )}
-    </>
   );
 }
 
@@ -137,7 +97,6 @@ export function LayerBar() {
         ))}
       </div>
       <div class="layer-tools">
-        <MapChoices />
         <HistorySteps />
         <SaveTools />
       </div>

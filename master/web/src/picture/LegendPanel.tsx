@@ -5,6 +5,7 @@ import { rangeOf } from "./figures";
 import { plain, timeText } from "./format";
 import { LabelLegend } from "./LabelLegend";
 import { paletteOf } from "./look";
+import { MapChoices } from "./MapChoices";
 import { normalColor, palettes, tableOf, type Palette } from "./palettes";
 import { logStep, positionOf, ticksOf, type Range, type RangeMode, type Shown } from "./range";
 import { Section } from "./Section";
@@ -152,6 +153,7 @@ export function LegendPanel() {
   return (
     <Section title="Legend" aside={map.unit}>
       <p class="quiet hint">{map.help}</p>
+      <MapChoices map={map} />
       {map.scale === "normal" && <NormalBall />}
       {map.scale === "label" && <LabelLegend entry={entry} />}
       {palette && (

@@ -3,18 +3,21 @@ import { count } from "../app/format";
 import { theme } from "../app/theme";
 import type { MapEntry } from "../app/types";
 import { shownEntry } from "./compare";
-import { shownMap } from "./display";
+import { shownMap, shownOf } from "./display";
 import { plain, timeText } from "./format";
+import { palettes } from "./palettes";
+import { logStep, positionOf } from "./range";
 import { saveSelection } from "./save";
 import { Section } from "./Section";
 import { areaIn, selection } from "./selection";
-import { figuresOf, histogramOf, type Figures, type Histogram } from "./statistics";
+import { figuresOf, histogramOf, type Figures } from "./statistics";
 import { useSteady } from "./steady";
 
 interface Summary {
-  pixels: number;
   figures: Figures[]; // a channel
-  histograms: Histogram[];
+  low: number; // of all channels
+  high: number;
+  histograms: number[][]; // a channel; none without a finite value
 }
 
 const bins = 128;
@@ -27,36 +30,38 @@ function summary(): Summary | null {
   const figures = channels.map((c) => figuresOf(data, c, area));
   const low = Math.min(...figures.map((each) => each.min));
   const high = Math.max(...figures.map((each) => each.max));
-  return {
-    pixels: area.width * area.height,
-    figures,
-    histograms: low <= high ? channels.map((c) => histogramOf(data, c, area, low, high, bins)) : [],
-  };
+  const map = shownMap.value;
+  // As the map's colours are.
+  const isLog = map !== null && palettes[map.scale].length > 0 && shownOf(map).log;
+  const step = map ? logStep(map) : 1;
+  const place = (value: number): number => positionOf(value, { low, high }, isLog, step, "depth");
+  const histograms = low <= high ? channels.map((c) => histogramOf(data, c, area, place, bins)) : [];
+  return { figures, low, high, histograms };
 }
 
 /// Heights are roots of counts: seldom values are seen beside frequent ones.
-function drawHistograms(canvas: HTMLCanvasElement, histograms: Histogram[]): void {
+function drawHistograms(canvas: HTMLCanvasElement, histograms: number[][]): void {
   const context = canvas.getContext("2d")!;
   const { width, height } = canvas;
   context.clearRect(0, 0, width, height);
-  const most = Math.max(1, ...histograms.flatMap((each) => each.counts));
+  const most = Math.max(1, ...histograms.flat());
   const dark = theme.value === "dark";
   context.globalCompositeOperation = dark ? "lighter" : "multiply";
   const colors = dark ? ["#8c3028", "#286c3c", "#30528c"] : ["#ff9a8f", "#8fdc9f", "#8fb8ff"];
   histograms.forEach((histogram, c) => {
     context.fillStyle = histograms.length === 1 ? (dark ? "#8c97a5" : "#7c8794") : colors[c]!;
-    histogram.counts.forEach((counted, i) => {
+    histogram.forEach((counted, i) => {
       const tall = counted > 0 ? Math.max(1, Math.sqrt(counted / most) * height) : 0;
       context.fillRect((i * width) / bins, height - tall, width / bins, tall);
     });
   });
 }
 
-function HistogramView({ histograms, text }: { histograms: Histogram[]; text: (value: number) => string }) {
+function HistogramView({ summary, text }: { summary: Summary; text: (value: number) => string }) {
   const canvas = useRef<HTMLCanvasElement>(null);
+  const { low, high, histograms } = summary;
   const isDark = theme.value === "dark";
   useEffect(() => drawHistograms(canvas.current!, histograms), [histograms, isDark]);
-  const { low, high } = histograms[0]!;
   return (
     <figure class="histogram">
       <canvas
@@ -103,7 +108,10 @@ function Oddities({ figures, isMap }: { figures: Figures[]; isMap: boolean }) {
 /// Figures of what is shown: of the selection, or of all.
 export function ValuesPanel() {
   const map = shownMap.value;
-  const data = useSteady(() => [shownEntry.value?.revision.value, selection.value, shownMap.value], summary);
+  const data = useSteady(
+    () => [shownEntry.value?.revision.value, selection.value, shownMap.value && shownOf(shownMap.value).log],
+    summary,
+  );
   const area = selection.value;
   const text = (value: number): string =>
     map?.unit === "seconds" && value >= 0 ? timeText(value) : plain(value, 4);
@@ -114,7 +122,7 @@ export function ValuesPanel() {
       title="Values"
       aside={area ? `${area.width} × ${area.height} at ${area.x}, ${area.y}` : "whole picture"}
     >
-      {data && data.histograms.length > 0 && <HistogramView histograms={data.histograms} text={text} />}
+      {data && data.histograms.length > 0 && <HistogramView summary={data} text={text} />}
       {data && (
         <table class="figures">
           {names.length > 1 && (

@@ -12,12 +12,6 @@ export interface Figures {
   absent: number; // not there yet
 }
 
-export interface Histogram {
-  low: number;
-  high: number;
-  counts: number[];
-}
-
 export function figuresOf(data: LayerData, channel: number, area: Rect): Figures {
   const { values, there, width, channels } = data;
   let [min, max, sum, finite, infinite, nans] = [Infinity, -Infinity, 0, 0, 0, 0];
@@ -38,25 +32,25 @@ export function figuresOf(data: LayerData, channel: number, area: Rect): Figures
   return { min, max, mean: sum / finite, sum, finite, infinite, nans, absent };
 }
 
-/// Of the finite values from low to high, in `bins` equal parts; those outside are not counted.
+/// How many finite values lie in each of `bins` equal parts of 0 to 1, where `place` puts them; those outside are
+/// not counted.
 export function histogramOf(
   data: LayerData,
   channel: number,
   area: Rect,
-  low: number,
-  high: number,
+  place: (value: number) => number,
   bins: number,
-): Histogram {
+): number[] {
   const { values, there, width, channels } = data;
   const counts = new Array<number>(bins).fill(0);
-  const scale = high > low ? bins / (high - low) : 0;
   for (let y = area.y; y < area.y + area.height; ++y)
     for (let i = y * width + area.x; i < y * width + area.x + area.width; ++i) {
+      if (there[i] === missing) continue;
       const value = values[i * channels + channel]!;
-      if (there[i] === missing || !(value >= low && value <= high)) continue;
-      counts[Math.min(bins - 1, Math.floor((value - low) * scale))]! += 1;
+      const share = Number.isFinite(value) ? place(value) : NaN;
+      if (share >= 0 && share <= 1) counts[Math.min(bins - 1, Math.floor(share * bins))]! += 1;
     }
-  return { low, high, counts };
+  return counts;
 }
 
 /// The values below which the shares `from` and `to` (0 to 1) of the finite values lie, of at most 65,536 of them,

@@ -1,5 +1,5 @@
 // The layers that are looked at or were lately: their numbers, fed by the master's news, and which are asked for.
-import { effect, signal, type Signal } from "@preact/signals";
+import { effect, signal, type Signal, untracked } from "@preact/signals";
 import { listen, watch, watches } from "../app/live";
 import { link } from "../app/state";
 import type { LayerMessage, TileMessage, Watch } from "../app/types";
@@ -96,17 +96,18 @@ function begin(message: LayerMessage): Entry | undefined {
   forgetIds(entry);
   byId.set(message.id, entry);
   const { width, height, channels, step: apart } = message;
-  const data = entry.data;
-  const same =
-    data?.width === width && data.height === height && data.channels === channels && data.step === apart;
-  if (same) data.outdate();
+  if (entry.data && hasShapeOf(entry.data, message)) entry.data.outdate();
   else entry.data = new LayerData(width, height, channels, apart);
   forget();
   return entry;
 }
 
+const hasShapeOf = (data: LayerData, { width, height, channels, step: apart }: LayerMessage): boolean =>
+  data.width === width && data.height === height && data.channels === channels && data.step === apart;
+
 function takeLayer(message: LayerMessage): void {
-  const entry = byId.get(message.id) ?? begin(message);
+  const known = byId.get(message.id);
+  const entry = known?.data && hasShapeOf(known.data, message) ? known : begin(message);
   if (!entry) return;
   entry.message.value = message;
   entry.revision.value += 1;
@@ -120,7 +121,10 @@ function takeTile(tile: TileMessage): void {
 export function startStore(): () => void {
   const stopListening = listen({ layer: takeLayer, tile: takeTile });
   const stopEffect = effect(() => {
-    if (link.value !== "open") byId.clear(); // a new connection numbers anew
+    if (link.value === "open") return untracked(() => want(wanted.map((entry) => entry.watch)));
+    byId.clear(); // a new connection numbers anew
+    // Another master may call another job by the same number: nothing is known to be finished.
+    for (const entry of entries.values()) entry.message.value = null;
   });
   return () => {
     stopListening();
