@@ -129,3 +129,28 @@ describe("what is let go when there are too many bytes", () => {
     expect(surplus(all, 0).map((each) => each.used)).toEqual([2, 3, 4]);
   });
 });
+
+describe("after the connection was lost", () => {
+  const finish = (id: number, value: number) => {
+    listener.layer(layer(0, id, { state: "done", progress: 1 }));
+    listener.tile(tile(id, value));
+    want(watches);
+  };
+
+  it("what was finished is asked for again: this may be another master with another job of that number", () => {
+    finish(71, 1);
+    expect(watched).toEqual([watches[1]]);
+    link.value = "lost";
+    link.value = "open";
+    expect(watched).toEqual(watches);
+    finish(71, 2);
+    expect(valueOf(watches[0]!)).toBe(2);
+  });
+
+  it("a layer that was missing has its own shape when it comes", () => {
+    listener.layer(layer(0, 72, { width: 0, height: 0, state: "failed", message: "there is no job 1" }));
+    listener.layer(layer(0, 72));
+    listener.tile(tile(72, 3));
+    expect(valueOf(watches[0]!)).toBe(3);
+  });
+});

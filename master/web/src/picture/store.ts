@@ -35,8 +35,9 @@ export function entryOf(w: Watch): Entry {
   return entry;
 }
 
+/// As told by this connection: another master may call another job by the same number.
 const finished = (entry: Entry): boolean =>
-  entry.message.peek()?.state === "done" && entry.data !== null && entry.data.complete;
+  [...byId.values()].includes(entry) && entry.message.peek()?.state === "done" && entry.data !== null && entry.data.complete;
 
 /// From now on these are kept up to date, the first the most important; finished ones are only kept.
 export function want(list: Watch[]): void {
@@ -123,8 +124,6 @@ export function startStore(): () => void {
   const stopEffect = effect(() => {
     if (link.value === "open") return untracked(() => want(wanted.map((entry) => entry.watch)));
     byId.clear(); // a new connection numbers anew
-    // Another master may call another job by the same number: nothing is known to be finished.
-    for (const entry of entries.values()) entry.message.value = null;
   });
   return () => {
     stopListening();
