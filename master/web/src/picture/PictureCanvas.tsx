@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { selectedJob } from "../app/state";
 import { shownEntry } from "./compare";
+import { flipIsComing } from "./flip";
 import { attachGestures } from "./gestures";
 import { makeHands } from "./hands";
 import { attachPainter, attachSize, painted, trouble } from "./painting";
@@ -59,6 +60,7 @@ export function PictureCanvas() {
           {message.message}
         </p>
       )}
+      {flipIsComing.value && <p class="picture-message">The ꟻLIP picture is being made …</p>}
       {trouble.value && (
         <p class="picture-message" role="alert">
           {trouble.value}

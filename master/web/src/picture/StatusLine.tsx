@@ -71,7 +71,9 @@ export function StatusLine() {
           <span>{standing()}</span>
           {showsReference.value && <strong>reference</strong>}
           {step > 1 && (
-            <span title="The picture is so large that not every pixel is sent">every {step}th pixel</span>
+            <span title="The picture is so large that not every pixel is sent">
+              every {step === 2 ? "2nd" : `${step}th`} pixel
+            </span>
           )}
           <span>
             {job.settings.width} × {job.settings.height}

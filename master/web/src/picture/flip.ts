@@ -1,12 +1,17 @@
 // The FLIP error picture of two jobs, as the master paints it.
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { urlOf } from "../app/api";
 import { selectedJob, tellError } from "../app/state";
-import { comparison, metric, reference } from "./compare";
+import { comparison, compares, metric, reference } from "./compare";
 import { LayerData } from "./layer_data";
 
 /// Of current and reference, once it is here.
 export const flipPicture = signal<LayerData | null>(null);
+
+/// It is to be shown but not here yet.
+export const flipIsComing = computed(
+  () => compares.value && comparison.value === "difference" && metric.value === "flip" && !flipPicture.value,
+);
 
 async function load(a: number, b: number, stop: AbortSignal): Promise<LayerData> {
   const response = await fetch(urlOf(`/jobs/${a}/difference/${b}/flip.png`), { signal: stop });
@@ -39,7 +44,9 @@ export function startFlip(): () => void {
     load(a.id, b.id, stop.signal).then(
       (data) => (flipPicture.value = data),
       (error: unknown) => {
-        if (!stop.signal.aborted) tellError(error);
+        if (stop.signal.aborted) return;
+        tellError(error);
+        metric.value = "absolute";
       },
     );
     return () => stop.abort();

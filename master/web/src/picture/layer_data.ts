@@ -4,7 +4,7 @@ import type { Size } from "./view";
 
 /// How a pixel's value came to be there.
 export const missing = 0; // not there yet
-export const exact = 1; // its own; from 2 on: that of a pixel up to so many away
+export const exact = 1; // its own, final; from 2 on: rounded, and perhaps that of a pixel less than so many away
 export const outdated = 255; // of an earlier stand of the layer, until the new one comes
 
 export interface Rect {
@@ -16,7 +16,7 @@ export interface Rect {
 
 export class LayerData implements Size {
   readonly values: Float32Array;
-  /// missing, exact, the stride of the pass it is from, or outdated: smaller is better, 0 aside.
+  /// missing, the stride of the pass that the value is from (1: exact), or outdated: smaller is better, 0 aside.
   readonly there: Uint8Array;
   private exactPixels = 0;
   private hasBegun = false;
@@ -83,13 +83,11 @@ export class LayerData implements Size {
     for (let x = 0; x < tile.width; ++x) {
       const at = (tile.y + y) * this.width + tile.x + x;
       const now = this.there[at]!;
-      // A value that stands for its whole square is the pixel's own in the square's corner.
-      const own = x % stride === 0 && y % stride === 0 ? exact : quality;
-      if (now !== missing && now < own) continue;
+      if (now !== missing && now < quality) continue;
       const from = (row + Math.floor(x / stride)) * channels;
       for (let c = 0; c < channels; ++c) this.values[at * channels + c] = tile.values[from + c]!;
-      if (own === exact && now !== exact) ++this.exactPixels;
-      this.there[at] = own;
+      if (quality === exact && now !== exact) ++this.exactPixels;
+      this.there[at] = quality;
     }
   }
 
@@ -100,7 +98,7 @@ export class LayerData implements Size {
     return this.values.subarray(i * this.channels, (i + 1) * this.channels);
   }
 
-  /// Is the value the pixel's own, and of now?
+  /// Is the value the pixel's own, and final?
   isExact(x: number, y: number): boolean {
     return this.there[y * this.width + x] === exact;
   }

@@ -108,7 +108,7 @@ export function saveSelection(): void {
   if (!job || !data || !area) return;
   const name = layer.peek().layer;
   const place = `x ${area.x * data.step} to ${(area.x + area.width - 1) * data.step}, y ${area.y * data.step} to ${(area.y + area.height - 1) * data.step}`;
-  const title = `${name} of job ${job.id}, ${job.name}: ${place}${data.step > 1 ? `, every ${data.step}th pixel` : ""}`;
+  const title = `${name} of job ${job.id}, ${job.name}: ${place}${data.step > 1 ? `, one pixel of ${data.step} each way` : ""}`;
   download(
     new Blob([csvOf(data, area, title)], { type: "text/csv" }),
     `${baseName(job)}-${name}-selection.csv`,

@@ -37,7 +37,10 @@ export function entryOf(w: Watch): Entry {
 
 /// As told by this connection: another master may call another job by the same number.
 const finished = (entry: Entry): boolean =>
-  [...byId.values()].includes(entry) && entry.message.peek()?.state === "done" && entry.data !== null && entry.data.complete;
+  [...byId.values()].includes(entry) &&
+  entry.message.peek()?.state === "done" &&
+  entry.data !== null &&
+  entry.data.complete;
 
 /// From now on these are kept up to date, the first the most important; finished ones are only kept.
 export function want(list: Watch[]): void {
