@@ -9,6 +9,7 @@
 #include "common/work/each_tile.h"
 #include "master/cli/commands.h"
 #include "master/cli/interrupt.h"
+#include "master/cli/job_diagnostics.h"
 #include "master/cli/picture_options.h"
 #include "master/cli/progress_line.h"
 #include "master/diagnostics/collecting_render.h"
@@ -18,10 +19,12 @@ namespace {
 
 struct CloudArguments {
   PictureOptions picture;
+  std::optional<JobNumber> job;
   std::string output;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool ascii = false, compact = false, visible_only = false;
   std::optional<double> voxel;
+  std::optional<std::uint32_t> points;  // of a job
 
   CloudOptions options() const {
     const PlyForm form = ascii ? PlyForm::ascii : compact ? PlyForm::compact : PlyForm::binary;
@@ -36,8 +39,21 @@ void check_arguments(const CloudArguments& a) {
   check_place(a.output);
 }
 
+ExitCode fetch_cloud(const CloudArguments& a) {
+  write_made_for_job(*a.job, "cloud.ply",
+                     {{"points", a.points ? std::to_string(*a.points) : ""},
+                      {"voxel", a.voxel ? number_text(*a.voxel) : ""},
+                      {"form", a.ascii     ? "ascii"
+                               : a.compact ? "compact"
+                                           : ""},
+                      {"visible", a.visible_only ? "1" : ""}},
+                     "collecting", a.output);
+  return ExitCode::done;
+}
+
 ExitCode make_cloud(const CloudArguments& a) {
   check_arguments(a);
+  if (a.job) return fetch_cloud(a);
   note_interrupts();
   PreparedScene scene = prepare(a.picture);
   scene.settings.shadows = false;  // they decide no ray that goes on
@@ -72,6 +88,9 @@ void add_cloud_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("cloud", "Write the surface points that a picture's rays meet, as PLY");
   add_sample_options(*command, arguments->picture);
+  command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
+      ->check(CLI::Range(1u, 1024u));
+  add_job_option(*command, arguments->job);
   command->add_option("-o,--output", arguments->output, "File to write, .ply")->required();
   CLI::Option* ascii = command->add_flag("--ascii", arguments->ascii, "As text");
   command
@@ -83,9 +102,14 @@ void add_cloud_command(CLI::App& app, Command& chosen) {
       "At most one point in each cube of this size; memory grows with the cubes, not the rays");
   command->add_flag("--visible", arguments->visible_only,
                     "Only where primary rays end, not reflected and refracted ones");
-  command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
-      ->check(CLI::Range(1u, 1024u));
-  command->footer("Example: rayfarm cloud scenes/circus.lua -o circus.ply --voxel 0.02");
+  command
+      ->add_option("--points", arguments->points,
+                   "With --job: at most so many, evenly over the picture (default 200000)")
+      ->check(CLI::Range(1u, 2'000'000u))
+      ->needs("--job");
+  command->footer(
+      "Examples:\n  rayfarm cloud scenes/circus.lua -o circus.ply --voxel 0.02\n  rayfarm cloud --job 7 -o "
+      "job.ply");
   command->callback([arguments, &chosen] { chosen = [arguments] { return make_cloud(*arguments); }; });
 }
 

@@ -1,6 +1,7 @@
 #include "master/cli/job_diagnostics.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <sstream>
 
@@ -74,6 +75,11 @@ void add_job_option(CLI::App& command, std::optional<JobNumber>& job) {
   command.parse_complete_callback([scene, option] {
     if (scene->empty() && option->empty()) throw CLI::RequiredError("SCENE or --job");
   });
+}
+
+std::string number_text(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
 
 std::string made_for_job(JobNumber job, const std::string& what, const Query& query, const char* doing) {

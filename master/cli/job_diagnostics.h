@@ -14,6 +14,9 @@ namespace rayfarm {
 /// is needed.
 void add_job_option(CLI::App& command, std::optional<JobNumber>& job);
 
+/// The shortest that reads back as the same number.
+std::string number_text(double number);
+
 /// Names and values for a request; empty values are left out.
 using Query = std::vector<std::pair<std::string, std::string>>;
 

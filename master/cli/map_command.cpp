@@ -59,12 +59,6 @@ void write(const MapArguments& a, const PreparedScene& scene, const Map& map, co
   write_picture(a.output, picture);
 }
 
-/// The shortest that reads back as the same number.
-std::string number_text(double number) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, number).ptr};
-}
-
 MapRequest request_of(const MapArguments& a) {
   const MapRequest request{map_named(a.kind), *reduction_named(a.reduction), a.compatible};
   if (request.kind->source == MapSource::farm && !a.job)

@@ -19,6 +19,7 @@ struct CloudOptions {
   PlyForm form = PlyForm::binary;
   double voxel = 0;           // at most one point in each cube of this size; 0: all points
   bool visible_only = false;  // where primary rays ended, not reflected and refracted ones
+  bool operator==(const CloudOptions&) const = default;
 };
 
 /// The surface's colour without light, as the original renderer has it, but rounded.

@@ -39,6 +39,7 @@ Diagnostics::Diagnostics(unsigned threads, Clock now, const DiagnosticsLimits& l
     : worlds_(limits.worlds),
       maps_(limits.maps, now),
       statistics_(limits.statistics, now),
+      clouds_(limits.clouds, now),
       background_(threads, now) {}
 
 Diagnostics::~Diagnostics() = default;
@@ -120,6 +121,27 @@ Made<Statistics> Diagnostics::statistics(const Subject& subject) {
   });
   return made(background_.ask(statistics->task),
               std::shared_ptr<const Statistics>(statistics->product, &statistics->product->total));
+}
+
+// Clouds. --------------------------------------------------------------------------------------------------
+
+Made<PlyFile> Diagnostics::cloud(const Subject& subject, const CloudRequest& request) {
+  constexpr std::uint64_t bytes_of_point = 100;  // as text
+  const std::uint64_t bytes = bytes_of_point * request.points;
+  const auto cloud = clouds_.get({subject.scene_hash, subject.settings, request}, bytes, [&] {
+    const auto growing = std::make_shared<GrowingCloud>();
+    const auto do_part = [this, subject, request, growing](std::uint32_t, const Background::Stop& stop) {
+      auto file = small_cloud(scene(subject)->world(), subject.settings, request.options, request.points,
+                              stop, [&](double share) { growing->share = share; });
+      if (file) growing->file = std::move(*file);
+      return file.has_value();
+    };
+    return std::make_shared<InMaking<GrowingCloud>>(
+        InMaking<GrowingCloud>{growing, background_.add({1, do_part})});
+  });
+  Standing standing = background_.ask(cloud->task);
+  if (standing.state == LayerProgress::making) standing.share_done = cloud->product->share;
+  return made(std::move(standing), std::shared_ptr<const PlyFile>(cloud->product, &cloud->product->file));
 }
 
 }  // namespace rayfarm

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "master/diagnostics/background.h"
+#include "master/diagnostics/cloud.h"
 #include "master/diagnostics/growing_map.h"
 #include "master/diagnostics/pixel_trace.h"
 #include "master/diagnostics/shelf.h"
@@ -35,9 +36,18 @@ struct Made {
 /// What is kept, and how much may be asked for at once.
 struct DiagnosticsLimits {
   ShelfLimits maps{.bytes = 512 << 20, .wanted = std::uint64_t{2} << 30, .things = 1000};
+  ShelfLimits clouds{.bytes = 128 << 20, .wanted = 512 << 20, .things = 100};
   ShelfLimits statistics{.bytes = 256 << 20, .wanted = std::uint64_t{1} << 30, .things = 1000};
   WorldCache::Limits worlds;
 };
+
+constexpr std::uint32_t most_cloud_points = 2'000'000;
+struct CloudRequest {
+  CloudOptions options;
+  std::uint32_t points = 200'000;  // at most, evenly over the picture
+  bool operator==(const CloudRequest&) const = default;
+};
+using PlyFile = std::vector<std::uint8_t>;
 
 class Diagnostics {
  public:
@@ -52,6 +62,8 @@ class Diagnostics {
   Made<Map> map(const Subject& subject, const MapRequest& request);
   /// Throws TooMuchAsked.
   Made<Statistics> statistics(const Subject& subject);
+  /// Throws TooMuchAsked.
+  Made<PlyFile> cloud(const Subject& subject, const CloudRequest& request);
 
   /// Builds it unless it is here. Throws what the scene's decoding throws.
   std::shared_ptr<const ReadyScene> scene(const Subject& subject);
@@ -87,12 +99,18 @@ class Diagnostics {
     Statistics total;
   };
 
+  struct GrowingCloud {
+    std::atomic<double> share{0};
+    PlyFile file;  // when it is done
+  };
+
   std::shared_ptr<InMaking<GrowingMap>> map_in_making(const Subject& subject, const MapRequest& request);
 
   std::atomic<bool> stopping_{false};
   WorldCache worlds_;
   Shelf<Key<MapRequest>, InMaking<GrowingMap>> maps_;
   Shelf<Key<Nothing>, InMaking<GrowingStatistics>> statistics_;
+  Shelf<Key<CloudRequest>, InMaking<GrowingCloud>> clouds_;
   Background background_;  // last: its threads end before what they use
 };
 

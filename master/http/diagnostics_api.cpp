@@ -106,10 +106,35 @@ ApiResponse show_trace(const Call& call) {
   return shown(to_json(trace));
 }
 
+// Clouds. --------------------------------------------------------------------------------------------------
+
+CloudRequest cloud_request(const Call& call) {
+  CloudRequest request;
+  request.points = whole_in(call, "points").value_or(request.points);
+  if (request.points < 1 || request.points > most_cloud_points)
+    throw ApiError(400, "points must be 1 to " + std::to_string(most_cloud_points));
+  request.options.voxel = real_in(call, "voxel").value_or(0);
+  if (request.options.voxel < 0) throw ApiError(400, "voxel must be a size, or 0 for all points");
+  request.options.form = choice_in(call, "form", "binary", "binary, ascii or compact",
+                                   [](const std::string& text) { return ply_form_named(text); });
+  request.options.visible_only = switch_in(call, "visible");
+  return request;
+}
+
+ApiResponse show_cloud(const Call& call) {
+  const CloudRequest request = cloud_request(call);
+  const Subject subject = job_subject(call.doors.farm, job_id(call)).subject;
+  const Made<PlyFile> made = call.doors.diagnostics.cloud(subject, request);
+  if (made.standing.state == LayerProgress::failed) throw ApiError(500, made.standing.message);
+  if (!made.thing) return in_the_making(made.standing.share_done);
+  return {200, "application/octet-stream", *made.thing};
+}
+
 constexpr Route routes[]{
     {"GET", "/api/v1/jobs/{id}/statistics", show_statistics, Work::picture},
     {"GET", "/api/v1/jobs/{id}/scene", show_scene, Work::picture},
     {"GET", "/api/v1/jobs/{id}/trace", show_trace, Work::trace},
+    {"GET", "/api/v1/jobs/{id}/cloud.ply", show_cloud, Work::picture},
 };
 
 }  // namespace

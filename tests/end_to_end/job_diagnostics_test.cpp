@@ -1,6 +1,7 @@
 // How a job's picture came about, asked of real daemons: what the commands make of the same scene without them.
 #include <signal.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -87,6 +88,14 @@ TEST_F(JobDiagnostics, WhoRenderedThePixelsIsTold) {
   for (; std::getline(table, row); ++rows) EXPECT_EQ(row.find_first_not_of("01;"), std::string::npos) << row;
   EXPECT_EQ(rows, 120);
   EXPECT_FALSE(file_of({"map", "cost", "--job", id}, ".exr").empty());
+}
+
+TEST_F(JobDiagnostics, TheCloudHasAtMostThePointsThatWereAskedFor) {
+  const std::string id = submit(picture, {"--hold"});
+  const std::string cloud = file_of({"cloud", "--job", id, "--points", "1000", "--ascii"}, ".ply");
+  EXPECT_TRUE(cloud.starts_with("ply\nformat ascii")) << cloud.substr(0, 200);
+  const std::string points = cloud.substr(cloud.find("end_header\n") + 11);
+  EXPECT_EQ(std::ranges::count(points, '\n'), 1000);
 }
 
 TEST_F(JobDiagnostics, WhatIsNotThereIsNamed) {

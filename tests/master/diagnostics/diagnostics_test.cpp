@@ -86,6 +86,18 @@ TEST_F(MadeInTheBackground, StatisticsAreThoseThatAreMadeAtOnce) {
   EXPECT_EQ(work(), 0);
 }
 
+TEST_F(MadeInTheBackground, ACloudIsTheOneThatIsMadeAtOnce) {
+  const Subject s = subject();
+  for (const PlyForm form : {PlyForm::binary, PlyForm::ascii, PlyForm::compact}) {
+    const CloudRequest request{{form, 0.25, false}, 1000};
+    EXPECT_EQ(diagnostics.cloud(s, request).thing, nullptr);
+    EXPECT_EQ(work(), 1);
+    const auto local = small_cloud(World(random_scene(3)), s.settings, request.options, request.points, never,
+                                   [](double) {});
+    EXPECT_EQ(*diagnostics.cloud(s, request).thing, *local);
+  }
+}
+
 TEST_F(MadeInTheBackground, NothingIsMadeForNobody) {
   EXPECT_EQ(work(), 0);
   diagnostics.scene(subject());
