@@ -20,7 +20,8 @@ class Bvh {
   const std::vector<std::uint32_t>& order() const { return order_; }
 
   /// Calls visit(place) for each box that the ray meets before t_max, roughly near to far; place is the
-  /// position in order(). The visitor may lower t_max, and ends the walk by returning false.
+  /// position in order(). The visitor may lower t_max, and ends the walk by returning false. Its box_tested(),
+  /// if it has one, is called for each box on the way.
   template <class Visit>
   void visit(const RayQuery& ray, const double& t_max, Visit&& visit_box) const;
 
@@ -44,13 +45,17 @@ class Bvh {
 
 template <class Visit>
 void Bvh::visit(const RayQuery& ray, const double& t_max, Visit&& visit_box) const {
+  const auto test = [&](const Box& box) {
+    if constexpr (requires { visit_box.box_tested(); }) visit_box.box_tested();
+    return span_in(box, ray, t_max);
+  };
   struct Waiting {
     const Child* child;
     double entry;
   };
   Waiting stack[max_depth];
   int waiting = 0;
-  const BoxSpan whole = span_in(root_.box, ray, t_max);
+  const BoxSpan whole = test(root_.box);
   if (whole.entry > whole.exit) return;
   const Child* next = &root_;
   while (next) {
@@ -60,7 +65,7 @@ void Bvh::visit(const RayQuery& ray, const double& t_max, Visit&& visit_box) con
         if (!visit_box(place)) return;
     } else {
       const Node& node = nodes_[next->first];
-      const BoxSpan a = span_in(node.child[0].box, ray, t_max), b = span_in(node.child[1].box, ray, t_max);
+      const BoxSpan a = test(node.child[0].box), b = test(node.child[1].box);
       const bool meets_a = a.entry <= a.exit, meets_b = b.entry <= b.exit;
       if (meets_a && meets_b) {
         const bool a_first = a.entry <= b.entry;

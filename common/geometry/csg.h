@@ -38,6 +38,7 @@ struct Boundary {
 
 /// Memory for one thread's rays, reused from ray to ray.
 struct CsgWorkspace {
+  static constexpr bool counts_tests = false;
   struct Event {
     double lo, hi, t, error;
     std::uint32_t item;
@@ -45,6 +46,28 @@ struct CsgWorkspace {
   std::vector<std::int32_t> counts;         // per item: how much of it is inside
   std::vector<std::int32_t> counts_before;  // at the start of an event with several leaves
   std::vector<Event> events;
+};
+
+/// What it takes to find out what rays meet.
+struct RayTests {
+  std::uint64_t boxes = 0;      // of the hierarchy and of CSG nodes, tested
+  std::uint64_t leaves = 0;     // solids tested
+  std::uint64_t crossings = 0;  // of solids' surfaces found, ahead of the ray
+  bool operator==(const RayTests&) const = default;
+  RayTests& operator+=(const RayTests& o) {
+    boxes += o.boxes, leaves += o.leaves, crossings += o.crossings;
+    return *this;
+  }
+};
+
+/// For who counts: nobody else pays.
+struct CountingCsgWorkspace : CsgWorkspace {
+  static constexpr bool counts_tests = true;
+  RayTests tests;
+
+  void leaf_tested(const Crossings& found) {
+    ++tests.leaves, tests.crossings += static_cast<std::uint64_t>(found.count);
+  }
 };
 
 /// Whether an item with that count is inside. A leaf counts 0 or 1.
@@ -65,8 +88,9 @@ inline bool is_inside(const CsgItem& item, std::int32_t count) {
 
 /// Finds the crossings of all leaves ahead of the ray into workspace.events (by lo), and every item's side at
 /// the origin into workspace.counts. Returns the object's side there.
+template <class Workspace>  // a CsgWorkspace
 bool gather(std::span<const CsgItem> items, std::span<const Leaf> leaves, const RayQuery& ray, double t_max,
-            CsgWorkspace& workspace);
+            Workspace& workspace);
 
 /// Goes on to the next boundary of a gathered object, from event number `next` on; false when there is none
 /// left.

@@ -11,6 +11,14 @@ namespace rayfarm {
 
 constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
 
+/// Of the scene's material. To which a ray was sent that leaves a surface is known, not computed: by it errors show.
+enum class Side : std::uint8_t { outside, inside, unknown };
+
+/// Whether a ray sent to that side cannot pass a surface so.
+inline bool contradicts(Side side, bool entering) {
+  return side == (entering ? Side::inside : Side::outside);
+}
+
 /// Points origin + t * direction, t > 0.
 ///
 /// A ray that starts on a surface names the leaf it leaves and the side: of that leaf the crossing at the
@@ -22,6 +30,7 @@ struct Ray {
   double origin_error = 0;  // each coordinate is within this of the exact point
   std::uint32_t left_leaf = no_leaf;
   bool into_leaf = false;  // the ray goes to the inner side of left_leaf
+  Side side = Side::unknown;
 };
 
 /// A ray with what every box and leaf asks of it, derived once.

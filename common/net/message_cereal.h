@@ -83,7 +83,7 @@ void serialize(Archive& archive, Goodbye& m) {
 }
 template <class Archive>
 void serialize(Archive& archive, RayCounters& c) {
-  archive(c.primary, c.reflected, c.refracted, c.shadow, c.primary_hits, c.secondary_hits, c.bad_samples);
+  archive(c.primary, c.reflected, c.refracted, c.shadow, c.primary_hits, c.secondary_hits, c.bad_samples, c.lost);
 }
 
 /// A Result without its pixels, but with how many there are.

@@ -69,7 +69,12 @@ std::uint64_t texture_cells(const World::Parts& w, const Ray& ray, const Hit& hi
 Ray ray_from(const Hit& hit, const Vec3d& direction, bool outside) {
   // Outside the material is outside the leaf, unless the leaf was subtracted.
   const bool leaf_is_material = hit.leaf_entering == hit.entering;
-  return {hit.point, direction, hit.point_error, hit.leaf, outside != leaf_is_material};
+  return {hit.point,
+          direction,
+          hit.point_error,
+          hit.leaf,
+          outside != leaf_is_material,
+          outside ? Side::outside : Side::inside};
 }
 
 }  // namespace rayfarm

@@ -1,144 +1,18 @@
-// Rays against the union of all objects.
-//
-// A ray that starts outside everything meets the union's surface where it first enters an object. One that
-// starts inside an object (refraction, a camera in glass) follows the union until it has left all of them.
-#include <algorithm>
-
-#include "common/geometry/sphere.h"
-#include "common/render/world_parts.h"
+#include "common/render/intersect.h"
 
 namespace rayfarm {
-namespace {
 
-/// An object's side at the ray's origin and its first boundary, if any.
-struct ObjectStart {
-  bool inside = false;
-  bool has_boundary = false;
-  Boundary first;
-};
+template std::optional<Boundary> first_boundary(const World::Parts&, const RayQuery&, WorldWorkspace&);
+template bool is_blocked(const World::Parts&, const RayQuery&, WorldWorkspace&);
 
-ObjectStart starting(bool inside, const Bounded<double>& at, std::uint32_t leaf) {
-  const Crossing c = crossing_at(at);
-  return {inside, at.t < infinity, {c.t, c.error, leaf, !inside, !inside}};
-}
-
-/// A convex leaf alone: what is ahead of its interval, without a list.
-ObjectStart start_of_interval(const Interval<double>& i, std::uint32_t leaf) {
-  if (i.enter.lo > i.leave.hi || i.leave.lo <= 0) return {};
-  if (i.enter.lo <= 0) return starting(true, i.leave, leaf);
-  if (i.leave.lo <= i.enter.hi) return {};  // in and out within the error: one event without effect
-  return starting(false, i.enter, leaf);
-}
-
-/// Crossings that overlap are one event; an even number of them changes nothing.
-ObjectStart start_of_crossings(const Crossings& c, std::uint32_t leaf) {
-  const auto at = [&](int i) -> const Crossing& { return c.at[static_cast<std::size_t>(i)]; };
-  for (int i = 0, last = 0; i < c.count; i = last) {
-    double hi = at(i).hi();
-    for (last = i + 1; last < c.count && at(last).lo() <= hi; ++last) hi = greatest(hi, at(last).hi());
-    if ((last - i) % 2 == 1) return starting(c.starts_inside, {at(i).t, at(i).lo(), at(i).hi()}, leaf);
-  }
-  return {c.starts_inside, false, {}};
-}
-
-ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
-  if (number != q.ray.left_leaf)
-    if (const auto interval = convex_interval(leaf, to_local(leaf, q)))
-      return start_of_interval(*interval, number);
-  return start_of_crossings(crossings_ahead(leaf, number, q), number);
-}
-
-ObjectStart start_of(const World::Parts& w, const ObjectRef& ref, const RayQuery& q, double t_max,
-                     WorldWorkspace& ws) {
-  if (ref.leaf != no_leaf) return start_of_leaf(w.leaves[ref.leaf], ref.leaf, q);
-  const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
-  ObjectStart start;
-  start.inside = gather(items, w.leaves, q, t_max, ws.csg);
-  std::size_t next = 0;
-  start.has_boundary = next_boundary(items, ws.csg, next, start.first);
-  return start;
-}
-
-template <class Visit>
-void visit_objects(const World::Parts& w, const RayQuery& q, const double& t_max, Visit&& visit) {
-  for (const ObjectRef& ref : w.endless_objects)
-    if (!visit(ref)) return;
-  w.bvh.visit(q, t_max, [&](std::uint32_t place) { return visit(w.bounded_objects[place]); });
-}
-
-/// The boundaries of all objects, in order. Returns how many objects the ray starts in.
-std::ptrdiff_t gather_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
-  ws.events.clear();
-  std::ptrdiff_t inside = 0;
-  visit_objects(w, q, infinity, [&](const ObjectRef& ref) {
+bool ends_inside(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
+  return std::ranges::any_of(w.endless_objects, [&](const ObjectRef& ref) {
     const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
-    inside += gather(items, w.leaves, q, infinity, ws.csg);
+    bool inside = gather(items, w.leaves, q, infinity, ws.csg);
     Boundary b;
-    for (std::size_t next = 0; next_boundary(items, ws.csg, next, b);)
-      ws.events.push_back({b.t - b.error, b.t + b.error, ref.object, b});
-    return true;
+    for (std::size_t next = 0; next_boundary(items, ws.csg, next, b);) inside = b.entering;
+    return inside;
   });
-  std::sort(ws.events.begin(), ws.events.end(),
-            [](const auto& a, const auto& b) { return a.lo != b.lo ? a.lo < b.lo : a.object < b.object; });
-  return inside;
-}
-
-std::optional<Boundary> first_of_union(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
-  std::ptrdiff_t inside = gather_union(w, q, ws);
-  for (std::size_t next = 0; next < ws.events.size();) {
-    const bool before = inside > 0;
-    const std::size_t first = next;
-    double hi = ws.events[first].hi;
-    std::size_t shown = first;
-    for (; next < ws.events.size() && ws.events[next].lo <= hi; ++next) {
-      const auto& e = ws.events[next];
-      hi = greatest(hi, e.hi);
-      inside += e.boundary.entering ? 1 : -1;
-      if (e.boundary.entering != before &&
-          (ws.events[shown].boundary.entering == before || e.object < ws.events[shown].object))
-        shown = next;
-    }
-    if ((inside > 0) != before) return ws.events[shown].boundary;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<Boundary> first_boundary(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
-  bool starts_inside = false, found = false;
-  Boundary best{};
-  std::uint32_t best_object = 0;
-  double t_max = infinity;
-  visit_objects(w, q, t_max, [&](const ObjectRef& ref) {
-    const ObjectStart start = start_of(w, ref, q, t_max, ws);
-    if (start.inside) {
-      starts_inside = true;
-      return false;
-    }
-    if (!start.has_boundary) return true;
-    const Boundary& b = start.first;
-    // Surfaces within each other's error are one; the object that comes first in the scene is shown.
-    const bool same = found && b.t - b.error <= best.t + best.error && best.t - best.error <= b.t + b.error;
-    if (!found || (same ? ref.object < best_object : b.t < best.t)) {
-      found = true, best = b, best_object = ref.object;
-      t_max = b.t + b.error;
-    }
-    return true;
-  });
-  if (starts_inside) return first_of_union(w, q, ws);
-  if (!found) return std::nullopt;
-  return best;
-}
-
-bool is_blocked(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
-  bool blocked = false;
-  visit_objects(w, q, 1.0, [&](const ObjectRef& ref) {
-    const ObjectStart start = start_of(w, ref, q, 1.0, ws);
-    blocked = start.has_boundary && start.first.t <= 1;
-    return !blocked;
-  });
-  return blocked;
 }
 
 }  // namespace rayfarm

@@ -2,6 +2,7 @@
 //
 //   begin(weight)                               what it shows counts so much in its parent's colour
 //   traced(kind, ray, depth, importance, hit)   importance: the product of all weights up to here
+//     [lost()]                                  what it met contradicts the side to which it was sent
 //     per light: [shadow_tested(ray, blocked)]  at t = 1 of the ray is the light
 //                lit(light, place, color)       color: what the light adds to the ray's
 //     reflected, refracted:                     begin() to ended() of that ray, or
@@ -37,6 +38,7 @@ struct IdleObserver {
   void not_traced(RayKind, double /*weight*/, NotTraced) {}
   void depth_reached() {}
   void ended(const Vec3d& /*color*/) {}
+  void lost() {}
 };
 
 struct CountingObserver : IdleObserver {
@@ -56,6 +58,7 @@ struct CountingObserver : IdleObserver {
     }
   }
   void shadow_tested(const Ray&, bool) { ++counters.shadow; }
+  void lost() { ++counters.lost; }
 };
 
 /// Two observers at once.
@@ -78,6 +81,7 @@ struct Both {
   void not_traced(RayKind kind, double weight, NotTraced why) {
     first.not_traced(kind, weight, why), second.not_traced(kind, weight, why);
   }
+  void lost() { first.lost(), second.lost(); }
   void depth_reached() { first.depth_reached(), second.depth_reached(); }
   void ended(const Vec3d& color) { first.ended(color), second.ended(color); }
 };

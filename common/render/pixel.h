@@ -28,17 +28,28 @@ inline std::uint32_t pixel_weight(const RenderSettings& s) {
   return is_adaptive(s.sampler) ? adapt1::smallest_cells(s.spp) : s.spp;
 }
 
-/// Where a sample aims on each light.
-inline auto lights_of(const PixelSampler& sampler, std::uint32_t index) {
-  return [&sampler, index](std::uint32_t light) { return sampler.sample(index, 1 + light); };
-}
-
 /// Traces one sample of a sampler that is not adaptive.
 template <class Observer>
 TakenSample taken_sample(Tracer<Observer>& tracer, const PixelSampler& sampler, Pixel pixel,
                          std::uint32_t number) {
   const Sample2D at = sampler.sample(number, 0);
-  return {number, at, tracer.radiance(pixel.x + at.u, pixel.y + at.v, lights_of(sampler, number))};
+  return {number, at, tracer.radiance(pixel.x + at.u, pixel.y + at.v, [&](std::uint32_t light) {
+            return sampler.sample(number, 1 + light);
+          })};
+}
+
+/// Traces the samples of an adaptive sampler, then visits them.
+template <class Observer, class Visit>
+void visit_adaptive_samples(Tracer<Observer>& tracer, const PixelSampler& sampler, std::uint32_t spp,
+                            Pixel pixel, Visit&& visit) {
+  const adapt1::Quadtree tree(sampler, spp, [&](std::uint32_t cell, const Sample2D& at) {
+    Signature signature(tracer.world());
+    const auto light_point = [&](std::uint32_t light) { return sampler.sample(cell, 1 + light); };
+    const Vec3d color = tracer.radiance(pixel.x + at.u, pixel.y + at.v, light_point, signature);
+    return adapt1::Seen{color, signature.value()};
+  });
+  std::uint32_t number = 0;
+  for (const adapt1::Sample& s : tree.samples()) visit(TakenSample{number++, s.at, s.seen.color, s.weight});
 }
 
 /// Traces the samples of a pixel: the very ones of the picture, for whoever renders, counts or watches.
@@ -47,22 +58,14 @@ TakenSample taken_sample(Tracer<Observer>& tracer, const PixelSampler& sampler, 
 template <class Observer, class Stop, class Visit>
 bool visit_samples(Tracer<Observer>& tracer, const RenderSettings& settings, Pixel pixel, const Stop& stop,
                    Visit&& visit) {
-  tracer.stop = std::ref(stop);
+  tracer.stop_when(std::ref(stop));
   const PixelSampler sampler(settings, pixel);
-  if (is_adaptive(settings.sampler)) {
-    const adapt1::Quadtree tree(sampler, settings.spp, [&](std::uint32_t cell, const Sample2D& at) {
-      Signature signature(tracer.world());
-      const Vec3d color =
-          tracer.radiance(pixel.x + at.u, pixel.y + at.v, lights_of(sampler, cell), signature);
-      return adapt1::Seen{color, signature.value()};
-    });
-    std::uint32_t number = 0;
-    for (const adapt1::Sample& s : tree.samples()) visit(TakenSample{number++, s.at, s.seen.color, s.weight});
-  } else {
+  if (is_adaptive(settings.sampler))
+    visit_adaptive_samples(tracer, sampler, settings.spp, pixel, visit);
+  else
     for (std::uint32_t s = 0; s < settings.spp && !tracer.is_stopped(); ++s)
       visit(taken_sample(tracer, sampler, pixel, s));
-  }
-  tracer.stop = nullptr;
+  tracer.stop_when(nullptr);
   return !tracer.is_stopped();
 }
 

@@ -30,12 +30,14 @@ std::uint32_t owen_scrambled(std::uint32_t x, std::uint32_t seed) {
   return reversed(laine_karras(reversed(x), seed));
 }
 
-/// Second dimension of the (0,2) sequence: the Pascal triangle modulo 2 as generator matrix.
-std::uint32_t sobol_second(std::uint32_t index) {
-  std::uint32_t result = 0;
-  for (std::uint32_t column = 1u << 31; index != 0; index >>= 1, column ^= column >> 1)
-    if (index & 1u) result ^= column;
-  return result;
+/// The second dimension of the (0,2) sequence, its bits reversed: the index times Pascal's triangle modulo 2. Of
+/// that, C(k, j) is odd where k has all bits of j (Lucas), so bit j is the sum of all bits k that do.
+std::uint32_t second_reversed(std::uint32_t index) {
+  index ^= (index >> 16) & 0x0000ffffu;
+  index ^= (index >> 8) & 0x00ff00ffu;
+  index ^= (index >> 4) & 0x0f0f0f0fu;
+  index ^= (index >> 2) & 0x33333333u;
+  return index ^ ((index >> 1) & 0x55555555u);
 }
 
 double unit_interval32(std::uint32_t bits) { return bits * 0x1p-32; }
@@ -77,9 +79,9 @@ Sample2D PixelSampler::sample(std::uint32_t index, std::uint32_t pair) const {
   if (kind_ == SamplerKind::sobol) {
     const std::uint64_t axes = keyed(key, 0);
     const std::uint32_t i = owen_scrambled(index, lower(key));
-    // The first dimension is the reversed index; scrambling it reverses it once more.
+    // The first dimension is the reversed index; the scramble reverses what it is given.
     return {unit_interval32(reversed(laine_karras(i, upper(axes)))),
-            unit_interval32(owen_scrambled(sobol_second(i), lower(axes)))};
+            unit_interval32(reversed(laine_karras(second_reversed(i), lower(axes))))};
   }
   const auto bits = [&](std::uint64_t axis) { return keyed(keyed(key, 1 + index), axis); };
   // With 32 bits the place on the pixel of a place in a cell is exact.

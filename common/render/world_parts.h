@@ -48,22 +48,32 @@ struct World::Parts {
   }
 };
 
-/// Memory for one thread's rays.
-struct WorldWorkspace {
-  struct UnionEvent {
-    double lo, hi;
-    std::uint32_t object;
-    Boundary boundary;
-  };
-  CsgWorkspace csg;
-  std::vector<UnionEvent> events;
+/// Where an object's surface counts among those of others that overlap it.
+struct UnionEvent {
+  double lo, hi;
+  std::uint32_t object;
+  Boundary boundary;
 };
 
+/// Memory for one thread's rays.
+template <class Csg>
+struct WorkspaceWith {
+  Csg csg;
+  std::vector<UnionEvent> events;
+};
+using WorldWorkspace = WorkspaceWith<CsgWorkspace>;
+using CountingWorkspace = WorkspaceWith<CountingCsgWorkspace>;
+
 /// The first boundary of the scene's union ahead of the ray.
+template <class Csg>
 std::optional<Boundary> first_boundary(const World::Parts& world, const RayQuery& ray,
-                                       WorldWorkspace& workspace);
+                                       WorkspaceWith<Csg>& workspace);
 
 /// Whether anything stands at 0 < t <= 1 of a ray that starts outside all material.
-bool is_blocked(const World::Parts& world, const RayQuery& ray, WorldWorkspace& workspace);
+template <class Csg>
+bool is_blocked(const World::Parts& world, const RayQuery& ray, WorkspaceWith<Csg>& workspace);
+
+/// Whether the ray's far end lies in endless material.
+bool ends_inside(const World::Parts& world, const RayQuery& ray, WorldWorkspace& workspace);
 
 }  // namespace rayfarm

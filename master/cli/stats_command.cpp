@@ -41,59 +41,71 @@ struct Report {
   std::vector<Phase> phases;
 
   double pixels() const { return static_cast<double>(settings.width) * settings.height; }
-  /// The leaves that were hit, most hits first.
-  std::vector<std::size_t> leaves_hit() const {
-    std::vector<std::size_t> leaves;
-    for (std::size_t leaf = 0; leaf < names.size(); ++leaf)
-      if (statistics.hits[leaf] > 0) leaves.push_back(leaf);
-    std::stable_sort(leaves.begin(), leaves.end(),
-                     [&](std::size_t a, std::size_t b) { return statistics.hits[a] > statistics.hits[b]; });
-    return leaves;
-  }
+  double samples_per_pixel() const { return static_cast<double>(statistics.rays.primary) / pixels(); }
 };
 
 nlohmann::json to_json(const Report& r) {
   nlohmann::json counters = to_json(r.statistics.rays), mean, seconds, hits = nlohmann::json::array();
-  counters["misses"] = r.statistics.rays.misses();
   for (const auto& [name, total] : counters.items()) mean[name] = total.get<double>() / r.pixels();
   for (const Phase& phase : r.phases) seconds[phase.name] = phase.seconds;
-  for (const std::size_t leaf : r.leaves_hit())
+  for (const std::size_t leaf : leaves_hit(r.statistics))
     hits.push_back({{"leaf", leaf}, {"name", r.names[leaf]}, {"hits", r.statistics.hits[leaf]}});
   return {{"settings", to_json(r.settings)},
           {"counters", counters},
           {"mean_per_pixel", mean},
           {"hits", hits},
           {"leaves", r.names.size()},
-          {"samples_per_pixel", r.settings.spp},
+          {"samples_per_pixel", r.samples_per_pixel()},
+          {"tests", tests_json(r.statistics)},
           {"seconds", seconds}};
 }
 
-void print(const Report& r) {
+using Table = std::vector<std::vector<std::string>>;
+
+std::string thousandths(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", number);
+  return text;
+}
+
+Table table_of_rays(const Report& r) {
   const RayCounters& c = r.statistics.rays;
-  const auto fixed = [](double number, const char* format) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, number);
-    return std::string(text);
-  };
-  std::vector<std::vector<std::string>> rays{{"RAYS", "TOTAL", "PER PIXEL"}};
+  Table rays{{"RAYS", "TOTAL", "PER PIXEL"}};
   const auto row = [&](const char* name, std::uint64_t total) {
-    rays.push_back({name, std::to_string(total), fixed(static_cast<double>(total) / r.pixels(), "%.3f")});
+    rays.push_back({name, std::to_string(total), thousandths(static_cast<double>(total) / r.pixels())});
   };
   row("primary", c.primary), row("reflected", c.reflected), row("refracted", c.refracted);
   row("shadow", c.shadow), row("all", c.rays());
   row("hits", c.primary_hits + c.secondary_hits), row("misses", c.misses());
-  row("bad samples", c.bad_samples);
+  row("lost", c.lost), row("bad samples", c.bad_samples);
+  return rays;
+}
 
-  std::vector<std::vector<std::string>> hits{{"SOLID", "HITS", "SHARE"}};
-  for (const std::size_t leaf : r.leaves_hit())
+Table table_of_tests(const Report& r) {
+  Table tests{{"PER RAY", "BOXES TESTED", "SOLIDS TESTED", "CROSSINGS FOUND"}};
+  const nlohmann::json kinds = tests_json(r.statistics);
+  for (const char* kind : {"nearest", "shadow"}) {
+    std::vector<std::string> row{kind};
+    for (const char* mean : {"boxes_per_ray", "leaves_per_ray", "crossings_per_ray"})
+      row.push_back(thousandths(kinds.at(kind).at(mean)));
+    tests.push_back(row);
+  }
+  return tests;
+}
+
+void print(const Report& r) {
+  const RayCounters& c = r.statistics.rays;
+  Table hits{{"SOLID", "HITS", "SHARE"}};
+  for (const std::size_t leaf : leaves_hit(r.statistics))
     hits.push_back({printable(r.names[leaf]), std::to_string(r.statistics.hits[leaf]),
                     percent(r.statistics.hits[leaf], c.primary_hits + c.secondary_hits)});
 
-  std::vector<std::vector<std::string>> times{{"PHASE", "SECONDS"}};
-  for (const Phase& phase : r.phases) times.push_back({phase.name, fixed(phase.seconds, "%.3f")});
+  Table times{{"PHASE", "SECONDS"}};
+  for (const Phase& phase : r.phases) times.push_back({phase.name, thousandths(phase.seconds)});
 
-  std::printf("%ux%u pixels, %u samples per pixel\n\n%s\n%s\n%s", r.settings.width, r.settings.height,
-              r.settings.spp, table(rays).c_str(), table(hits).c_str(), table(times).c_str());
+  std::printf("%ux%u pixels, %s samples per pixel\n\n%s\n%s\n%s\n%s", r.settings.width, r.settings.height,
+              thousandths(r.samples_per_pixel()).c_str(), table(table_of_rays(r)).c_str(),
+              table(table_of_tests(r)).c_str(), table(hits).c_str(), table(times).c_str());
 }
 
 ExitCode stats(const StatsArguments& a) {

@@ -126,11 +126,11 @@ struct Recording {
         [this](const TakenSample& sample) { note(sample); });
   }
   void add_one(std::uint32_t number) {
-    tracer.stop = [this] { return must_stop(); };
+    tracer.stop_when([this] { return must_stop(); });
     note(taken_sample(tracer, PixelSampler(settings, pixel), pixel, number));
   }
   void add_centre() {
-    tracer.stop = [this] { return must_stop(); };
+    tracer.stop_when([this] { return must_stop(); });
     const double x = pixel.x + 0.5, y = pixel.y + 0.5;
     tracer.radiance(x, y, [](std::uint32_t) { return Sample2D{0.5, 0.5}; });
     samples.push_back({std::nullopt, x, y, 1, {}});

@@ -1,7 +1,9 @@
 #include "master/diagnostics/statistics.h"
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "common/render/pixel.h"
 #include "common/work/each_tile.h"
@@ -9,15 +11,36 @@
 namespace rayfarm {
 namespace {
 
-struct HitCounter : CountingObserver {
-  std::vector<std::uint64_t> hits;
+/// Counts hits by leaf. It looks for each hit once more to count what that takes, so that who renders need not.
+struct WorkCounter : CountingObserver {
+  WorkCounter(const World& world) : world(&world.parts()), hits(world.parts().leaves.size()) {}
 
   void traced(RayKind kind, const Ray& ray, std::uint32_t depth, double importance,
               const std::optional<Hit>& hit) {
     CountingObserver::traced(kind, ray, depth, importance, hit);
     if (hit) ++hits[hit->leaf];
+    first_boundary(*world, RayQuery(ray), nearest);
   }
+  void shadow_tested(const Ray& ray, bool blocked) {
+    CountingObserver::shadow_tested(ray, blocked);
+    is_blocked(*world, RayQuery(ray), shadow);
+  }
+
+  const World::Parts* world;
+  std::vector<std::uint64_t> hits;
+  CountingWorkspace nearest, shadow;
 };
+
+nlohmann::json to_json(const RayTests& tests, std::uint64_t rays) {
+  const double per_ray = rays > 0 ? 1.0 / static_cast<double>(rays) : 0;
+  return {{"rays", rays},
+          {"boxes", tests.boxes},
+          {"leaves", tests.leaves},
+          {"crossings", tests.crossings},
+          {"boxes_per_ray", static_cast<double>(tests.boxes) * per_ray},
+          {"leaves_per_ray", static_cast<double>(tests.leaves) * per_ray},
+          {"crossings_per_ray", static_cast<double>(tests.crossings) * per_ray}};
+}
 
 }  // namespace
 
@@ -25,14 +48,27 @@ Statistics& Statistics::operator+=(const Statistics& other) {
   rays += other.rays;
   hits.resize(std::max(hits.size(), other.hits.size()));
   for (std::size_t leaf = 0; leaf < other.hits.size(); ++leaf) hits[leaf] += other.hits[leaf];
+  nearest_tests += other.nearest_tests, shadow_tests += other.shadow_tests;
   return *this;
+}
+
+std::vector<std::size_t> leaves_hit(const Statistics& statistics) {
+  std::vector<std::size_t> leaves;
+  for (std::size_t leaf = 0; leaf < statistics.hits.size(); ++leaf)
+    if (statistics.hits[leaf] > 0) leaves.push_back(leaf);
+  std::ranges::stable_sort(leaves, std::greater{}, [&](std::size_t leaf) { return statistics.hits[leaf]; });
+  return leaves;
+}
+
+nlohmann::json tests_json(const Statistics& s) {
+  const RayCounters& rays = s.rays;
+  return {{"nearest", to_json(s.nearest_tests, rays.primary + rays.reflected + rays.refracted)},
+          {"shadow", to_json(s.shadow_tests, rays.shadow)}};
 }
 
 std::optional<Statistics> statistics_of_tile(const World& world, const RenderSettings& settings,
                                              std::uint32_t number, const std::function<bool()>& stop) {
-  HitCounter counter;
-  counter.hits.resize(world.parts().leaves.size());
-  Tracer<HitCounter> tracer(world, settings, std::move(counter));
+  Tracer<WorkCounter> tracer(world, settings, WorkCounter(world));
   const Tile tile = tile_at({settings.width, settings.height}, number);
   std::uint64_t bad_samples = 0;
   for (std::uint32_t y = tile.y0; y < tile.y1; ++y)
@@ -41,7 +77,9 @@ std::optional<Statistics> statistics_of_tile(const World& world, const RenderSet
       if (!sum) return std::nullopt;
       bad_samples += sum->bad_samples;
     }
-  Statistics result{tracer.observer.counters, std::move(tracer.observer.hits)};
+  WorkCounter& counter = tracer.observer;
+  Statistics result{counter.counters, std::move(counter.hits), counter.nearest.csg.tests,
+                    counter.shadow.csg.tests};
   result.rays.bad_samples = bad_samples;
   return result;
 }
@@ -51,7 +89,7 @@ std::optional<Statistics> statistics_of(
     const std::function<void(std::uint32_t done, std::uint32_t all)>& progress) {
   const Size film{settings.width, settings.height};
   std::mutex mutex;  // guards what follows
-  Statistics total{{}, std::vector<std::uint64_t>(world.parts().leaves.size())};
+  Statistics total;
   std::uint32_t done = 0;
   const auto count = [&](std::uint32_t tile) {
     const auto part = statistics_of_tile(world, settings, tile, stop);

@@ -19,10 +19,7 @@ constexpr std::size_t most_solids_listed = 20'000;
 
 /// The solids that were hit, most hits first.
 json json_of_hits(const Statistics& statistics, const std::vector<std::string>& names) {
-  std::vector<std::size_t> leaves;
-  for (std::size_t leaf = 0; leaf < statistics.hits.size(); ++leaf)
-    if (statistics.hits[leaf] > 0) leaves.push_back(leaf);
-  std::ranges::stable_sort(leaves, std::greater{}, [&](std::size_t leaf) { return statistics.hits[leaf]; });
+  std::vector<std::size_t> leaves = leaves_hit(statistics);
   leaves.resize(std::min(leaves.size(), most_solids_listed));
   json hits = json::array();
   for (const std::size_t leaf : leaves)
@@ -40,6 +37,7 @@ json statistics_detail(const Call& call, JobId id) try {
   return {{"state", "done"},
           {"progress", 1},
           {"counters", to_json(made.thing->rays)},
+          {"tests", tests_json(*made.thing)},
           {"hits", json_of_hits(*made.thing, call.doors.diagnostics.scene(subject)->leaf_names())}};
 } catch (const ApiError& error) {
   return {{"state", "unavailable"}, {"message", error.what()}};
@@ -52,7 +50,6 @@ ApiResponse show_statistics(const Call& call) {
   const auto seconds = [](FarmTime time) { return std::chrono::duration<double>(time).count(); };
   const auto pixels = static_cast<double>(std::max<std::uint64_t>(job->pixels_done, 1));
   json counters = to_json(job->counters), mean;
-  counters["misses"] = job->counters.misses();
   for (const auto& [name, total] : counters.items()) mean[name] = total.get<double>() / pixels;
   json detail = statistics_detail(call, id);
   const bool is_complete = detail["state"] != "making";

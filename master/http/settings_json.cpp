@@ -82,7 +82,8 @@ RenderSettings settings_from_json(const json& value) {
 json to_json(const RayCounters& c) {
   return {{"primary", c.primary}, {"reflected", c.reflected},       {"refracted", c.refracted},
           {"shadow", c.shadow},   {"primary_hits", c.primary_hits}, {"secondary_hits", c.secondary_hits},
-          {"rays", c.rays()},     {"bad_samples", c.bad_samples}};
+          {"rays", c.rays()},     {"misses", c.misses()},           {"bad_samples", c.bad_samples},
+          {"lost", c.lost}};
 }
 
 }  // namespace rayfarm

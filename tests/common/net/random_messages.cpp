@@ -18,7 +18,7 @@ std::vector<LeaseId> random_leases(std::mt19937_64& random) {
 RenderSettings random_settings(std::mt19937_64& random) {
   RenderSettings s;
   s.width = 1 + random() % 2000, s.height = 1 + random() % 2000, s.spp = 16;
-  s.sampler = static_cast<SamplerKind>(random() % 4);
+  s.sampler = static_cast<SamplerKind>(random() % 5);
   s.seed = random(), s.frame = random() % 100, s.max_depth = random() % 20;
   s.shadows = random() % 2, s.reflections = random() % 2, s.refractions = random() % 2;
   return s;
@@ -40,7 +40,7 @@ PassImage random_pass(std::mt19937_64& random, int pass) {
   image.pass = pass;
   image.rgb.resize(3 * pixel_count({0, 0, tile_side, tile_side}, pass));
   for (float& value : image.rgb) value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-  image.counters = {random(), random(), random(), random(), random(), random(), random()};
+  image.counters = {random(), random(), random(), random(), random(), random(), random(), random()};
   return image;
 }
 

@@ -39,7 +39,8 @@ bool same_bits(const Film& a, const Film& b) {
 TEST(Render, PassesAndThreadsDoNotChangeABit) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const World world(random_scene(seed));
-    const RenderSettings s = small_settings();
+    RenderSettings s = small_settings();
+    if (seed == 4) s.sampler = SamplerKind::adapt1, s.spp = 16;
     const Film whole = rendered(world, s);
     EXPECT_TRUE(whole.is_complete());
     EXPECT_TRUE(same_bits(whole, rendered(world, s, 0b0101)));

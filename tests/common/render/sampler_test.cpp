@@ -15,7 +15,8 @@ RenderSettings settings_for(SamplerKind kind, std::uint32_t spp) {
 }
 
 std::vector<SamplerKind> all_kinds() {
-  return {SamplerKind::sobol, SamplerKind::jitter, SamplerKind::regular, SamplerKind::random};
+  return {SamplerKind::sobol, SamplerKind::jitter, SamplerKind::regular, SamplerKind::random,
+          SamplerKind::adapt1};
 }
 
 TEST(Sampler, SamplesLieInTheUnitSquareAndAreAFunctionOfTheirKeys) {
@@ -60,7 +61,8 @@ TEST(Sampler, JitterAndRegularFillEachCellOnce) {
 }
 
 TEST(Sampler, SeedFramePixelAndPairChangeTheSamples) {
-  for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::jitter, SamplerKind::random}) {
+  for (const SamplerKind kind :
+       {SamplerKind::sobol, SamplerKind::jitter, SamplerKind::random, SamplerKind::adapt1}) {
     RenderSettings s = settings_for(kind, 16);
     const double here = PixelSampler(s, {1, 2}).sample(3, 0).u;
     EXPECT_NE(here, PixelSampler(s, {2, 1}).sample(3, 0).u);

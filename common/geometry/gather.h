@@ -1,0 +1,54 @@
+// How gather() works, for the files that instantiate it: one for each workspace, so that the one
+// that counts nothing is compiled as if there were no other.
+#pragma once
+#include "common/geometry/csg.h"
+
+namespace rayfarm {
+namespace {
+
+/// Changes the leaf's side and what follows from it upwards.
+void toggle(std::span<const CsgItem> items, std::vector<std::int32_t>& counts, std::uint32_t item) {
+  counts[item] ^= 1;
+  bool inside = counts[item] != 0;
+  while (item != items[item].parent) {
+    const std::uint32_t parent = items[item].parent;
+    const bool before = is_inside(items[parent], counts[parent]);
+    counts[parent] += inside ? items[item].weight : -items[item].weight;
+    inside = is_inside(items[parent], counts[parent]);
+    if (inside == before) return;
+    item = parent;
+  }
+}
+
+}  // namespace
+
+template <class Workspace>
+bool gather(std::span<const CsgItem> items, std::span<const Leaf> leaves, const RayQuery& q, double t_max,
+            Workspace& ws) {
+  ws.counts.assign(items.size(), 0);
+  ws.events.clear();
+  for (std::uint32_t i = 0; i < items.size();) {
+    const CsgItem& item = items[i];
+    if constexpr (Workspace::counts_tests) ++ws.tests.boxes;
+    const BoxSpan span = span_in(item.box, q, t_max);
+    if (span.entry > span.exit) {
+      i = item.next;
+      continue;
+    }
+    if (item.leaf != no_leaf) {
+      const Crossings c = crossings_ahead(leaves[item.leaf], item.leaf, q);
+      if constexpr (Workspace::counts_tests) ws.leaf_tested(c);
+      if (c.starts_inside) toggle(items, ws.counts, i);
+      for (int k = 0; k < c.count; ++k) {
+        const Crossing& at = c.at[static_cast<std::size_t>(k)];
+        ws.events.push_back({at.lo(), at.hi(), at.t, at.error, i});
+      }
+    }
+    ++i;
+  }
+  std::sort(ws.events.begin(), ws.events.end(),
+            [](const auto& a, const auto& b) { return a.lo != b.lo ? a.lo < b.lo : a.item < b.item; });
+  return is_inside(items[0], ws.counts[0]);
+}
+
+}  // namespace rayfarm
