@@ -2,17 +2,27 @@
 
 #include <algorithm>
 
+#include "common/math/number.h"
+
 namespace rayfarm {
 namespace {
 
-/// Two points of one smooth sheet see each other at a small angle to both tangent planes; two sheets, one
-/// behind the other, do not: at a fold the near one is seen edge-on, the far one from the front.
+/// Whether two points of a face lie on one sheet of it, as seen from about the same place.
+///
+/// Of a sheet that bends one way, the chord between two points rises from the tangent plane at one of them and
+/// comes down to that at the other. Of two sheets, one behind the other and both facing the viewer, it comes
+/// down to both. Points side by side may have a relief between them.
 bool on_one_sheet(const SurfaceSample& a, const SurfaceSample& b) {
-  constexpr double steepest = 0.8;  // sine: a sheet may turn by 90 degrees (0.71) within the pixel
-  const Vec3d between = b.point - a.point;
-  const double rise_a = dot(a.normal, between), rise_b = dot(b.normal, between);
-  const double most = steepest * steepest * dot(between, between);
-  return rise_a * rise_a <= most && rise_b * rise_b <= most;
+  constexpr double flat = 0.05, steepest = 0.8;  // sines of the angles between chord and tangent planes
+  const Vec3d chord = b.point - a.point;
+  const double length_2 = dot(chord, chord);
+  const double rise_a = dot(a.normal, chord), rise_b = dot(b.normal, chord);
+  const double most_2 = greatest(rise_a * rise_a, rise_b * rise_b);
+  if (most_2 <= flat * flat * length_2) return true;
+  if (most_2 > steepest * steepest * length_2) return false;
+  const double behind = b.distance - a.distance;
+  const bool side_by_side = behind * behind <= 0.75 * length_2;  // at 60 degrees to the view at most
+  return side_by_side || rise_a * rise_b <= 0;
 }
 
 constexpr std::array<std::string_view, 4> reduction_names{"majority", "mean", "closest", "median"};
@@ -98,7 +108,7 @@ bool PixelSurfaces::is_cap(const SurfaceSample& sample) const {
 
 /// Whether the sample lies on the rank's face, and on the same sheet of it.
 bool PixelSurfaces::shows(const Rank& rank, const SurfaceSample& sample) const {
-  if (sample.leaf != rank.first.leaf) return false;
+  if (sample.leaf != rank.first.leaf || sample.into_leaf != rank.first.into_leaf) return false;
   if (sample.normal != rank.first.normal) {
     const Leaf& leaf = world_->leaves[sample.leaf];
     if (std::holds_alternative<Cube>(leaf.solid)) return false;

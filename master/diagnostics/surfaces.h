@@ -17,11 +17,14 @@ namespace rayfarm {
 /// Where a primary ray first met a surface.
 struct SurfaceSample {
   std::uint32_t leaf = 0;
+  bool into_leaf = true;  // on the leaf's near side, not from within it
   double distance = 0;
   Vec3d point{}, normal{};
 };
 
-inline SurfaceSample surface_sample(const Hit& hit) { return {hit.leaf, hit.t, hit.point, hit.normal}; }
+inline SurfaceSample surface_sample(const Hit& hit) {
+  return {hit.leaf, hit.leaf_entering, hit.t, hit.point, hit.normal};
+}
 
 /// One surface within a pixel: its samples' means.
 struct Surface {
@@ -45,8 +48,8 @@ std::string_view name_of(Reduction reduction);
 /// The surfaces of one pixel after another, in memory of a fixed size (but for the median, which needs all
 /// samples).
 ///
-/// A surface is one face of a leaf, and one sheet of it: a face that comes into view twice (the tube of a torus
-/// before its far side) is two. Four are told apart at a time; a fifth takes the place of the one that has been
+/// A surface is one face of a leaf, and one sheet of it: a face that comes into view twice (a hole's near and far
+/// side, the tube of a torus before its far side) is two. Four are told apart at a time; a fifth takes the place of the one that has been
 /// outweighed by others, so whatever more than a fifth of the samples that hit show is among the four, and what
 /// has lost its place joins the rest, which is no surface and is never shown. Source: J. Misra and D. Gries,
 /// Finding Repeated Elements, Science of Computer Programming 2, 1982.

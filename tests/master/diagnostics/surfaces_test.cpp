@@ -23,7 +23,7 @@ Scene scene_of_spheres(std::uint32_t count) {
 /// On a plane of its own for each leaf, facing the camera.
 SurfaceSample sample_of(std::uint32_t leaf, double x = 0) {
   const double z = 1 + leaf;
-  return {leaf, z, {x, 0, z}, {0, 0, -1}};
+  return {leaf, true, z, {x, 0, z}, {0, 0, -1}};
 }
 
 std::uint64_t sum_of(const PixelSurfaces& surfaces) {
@@ -95,9 +95,9 @@ TEST(Surfaces, WeightsCountAsSoManySamples) {
 
 TEST(Surfaces, AFaceThatComesIntoViewTwiceIsTwoSurfaces) {
   // A torus seen from the side: its tube edge-on, and its far side from the front.
-  const SurfaceSample near_1{0, 4.00, {0, 0.25, 4}, {0, 1, 0}},
-      near_2{0, 4.01, {0.01, 0.25, 4.01}, {0, 1, 0}};
-  const SurfaceSample far{0, 6, {0, 0.26, 6}, {0, 0, -1}};
+  const SurfaceSample near_1{0, true, 4.00, {0, 0.25, 4}, {0, 1, 0}},
+      near_2{0, true, 4.01, {0.01, 0.25, 4.01}, {0, 1, 0}};
+  const SurfaceSample far{0, true, 6, {0, 0.26, 6}, {0, 0, -1}};
   const World world(scene_of_spheres(1));
   PixelSurfaces surfaces(world, Reduction::majority);
   for (const SurfaceSample& sample : {far, near_2, near_1}) surfaces.add(sample, 1);
@@ -129,7 +129,7 @@ TEST(Surfaces, TheMeanOfABumpySurfaceIsItsMean) {
     const double x = (i + 0.5) / count, phase = 2 * pi * x / period;
     const double z = 10 + height * std::sin(phase), slope = height * 2 * pi / period * std::cos(phase);
     const Vec3d normal = normalized(Vec3d{slope, 0, -1});
-    surfaces.add({0, z, {x, 0, z}, normal}, 1);
+    surfaces.add({0, true, z, {x, 0, z}, normal}, 1);
     sum += z, squares += (z - 10) * (z - 10);
   }
   for (const Surface& surface : surfaces.ranked()) seen += static_cast<double>(surface.weight);
