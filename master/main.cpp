@@ -67,6 +67,7 @@ void dial_all(Sessions& sessions, const std::vector<std::string>& targets) {
 
 /// Returns after a clean stop; throws what kept the master from starting.
 void serve(const Arguments& arguments) {
+  allow_many_descriptors();
   std::optional<StateFolder> state;
   if (!arguments.state.empty()) state.emplace(arguments.state);
 

@@ -8,6 +8,9 @@ std::string host_name();
 /// As the kernel names it; empty where it does not.
 std::string cpu_name();
 
+/// As many open files and connections as the system lets this process have.
+void allow_many_descriptors();
+
 /// Tell systemd, if it started us (and we were built with it).
 void notify_ready();
 void notify_stopping();

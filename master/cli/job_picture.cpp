@@ -5,7 +5,7 @@
 #include "common/net/codec.h"
 #include "master/cli/exit_code.h"
 #include "master/cli/master_api.h"
-#include "master/files/picture_facts.h"
+#include "master/files/film_picture.h"
 #include "master/http/settings_json.h"
 
 namespace rayfarm {
@@ -21,13 +21,8 @@ Film fetch_film(const nlohmann::json& job) {
 }
 
 void write_job_picture(const std::string& file, const nlohmann::json& job, const Film& film, PngCurve curve) {
-  Picture picture{film.size(), film.filled(),
-                  facts_of(job.at("scene_hash"), settings_from_json(job.at("settings")))};
-  if (!film.is_complete()) {
-    const std::uint64_t pixels = std::uint64_t{film.size().width} * film.size().height;
-    picture.facts["rayfarm:missing_pixels"] = std::to_string(pixels - film.pixels_done());
-  }
-  write_picture(file, picture, curve);
+  const RenderSettings settings = settings_from_json(job.at("settings"));
+  write_picture(file, film_picture(film, job.at("scene_hash"), settings), curve);
 }
 
 }  // namespace rayfarm

@@ -1,4 +1,4 @@
-// rayfarm workers, drain, undrain.
+// rayfarm workers, drain, undrain, ban, unban.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -27,13 +27,13 @@ ExitCode list_workers(const WorkerArguments& a) {
     return ExitCode::done;
   }
   std::vector<std::vector<std::string>> rows{
-      {"NAME", "STATE", "THREADS", "HOLDS", "TILES", "SAMPLES/S", "ADDRESS", "CPU"}};
+      {"NAME", "STATE", "THREADS", "HOLDS", "TILES", "SAMPLES/S", "ADDRESS", "CPU", "NOTE"}};
   for (const json& worker : answer.at("workers")) {
     const double speed = worker.at("samples_per_second");
     rows.push_back({printable(worker.at("name")), worker.at("state"), worker.at("threads").dump(),
                     worker.at("leases").dump(), worker.at("tiles").dump(),
                     speed > 0 ? short_count(speed) : "", printable(worker.at("address")),
-                    printable(worker.at("cpu"))});
+                    printable(worker.at("cpu")), printable(worker.at("message"))});
   }
   std::fputs(table(rows).c_str(), stdout);
   return ExitCode::done;
@@ -58,7 +58,9 @@ void add_worker_commands(CLI::App& app, Command& chosen) {
 
   for (const auto& [verb, help] :
        {std::pair{"drain", "Give a worker nothing more; others take what it holds"},
-        std::pair{"undrain", "Let a drained worker work again"}}) {
+        std::pair{"undrain", "Let a drained worker work again"},
+        std::pair{"ban", "End a worker's connection and refuse it from now on"},
+        std::pair{"unban", "Let a banned worker come again"}}) {
     const auto one = std::make_shared<WorkerArguments>();
     CLI::App* command = app.add_subcommand(verb, help);
     command->add_option("NAME", one->name, "The worker's name, as workers shows it")->required();

@@ -79,10 +79,9 @@ std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id) {
   return copy;
 }
 
-Picture preview(const Film& film) {
+Picture preview(const Film& film, std::uint32_t longest_side) {
   const Size whole = film.size();
-  const std::uint32_t step =
-      (std::max(whole.width, whole.height) + longest_preview_side - 1) / longest_preview_side;
+  const std::uint32_t step = (std::max(whole.width, whole.height) - 1) / longest_side + 1;
   if (step <= 1) return {whole, film.filled(), {}};
   Picture picture{{(whole.width + step - 1) / step, (whole.height + step - 1) / step}, {}, {}};
   for (std::uint32_t y = 0; y < whole.height; y += step)

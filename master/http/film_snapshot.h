@@ -16,9 +16,7 @@ std::shared_ptr<const Film> film_so_far(const Farm& farm, JobId id, FarmTime now
 /// it was at some moment of the copying. Throws ApiError when there is none.
 std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id);
 
-constexpr std::uint32_t longest_preview_side = 4096;  // pixels
-
 /// What is there, coarse pixels filling the places of those to come; of a larger picture each n-th pixel.
-Picture preview(const Film& film);
+Picture preview(const Film& film, std::uint32_t longest_side);
 
 }  // namespace rayfarm

@@ -2,8 +2,10 @@
 #include <nlohmann/json.hpp>
 
 #include "master/http/farm_json.h"
+#include "master/http/job_subject.h"
 #include "master/http/route.h"
 #include "master/http/script_submission.h"
+#include "master/http/settings_json.h"
 
 namespace rayfarm {
 namespace {
@@ -32,8 +34,25 @@ ApiResponse show_job(const Call& call) {
       call.doors.farm.ask([id = job_id(call)](Farm& farm, FarmTime now) { return job_now(farm, id, now); }));
 }
 
+/// {scene_of: 7, ...}: the very scene of that job, with other settings.
+JobSpec job_like_another(const json& body, const FarmDoor& farm) {
+  for (const char* source : {"scene", "scene_name", "script", "script_name", "parameters"})
+    if (body.contains(source)) throw ApiError(400, std::string(source) + " and scene_of exclude each other");
+  if (!body["scene_of"].is_number_unsigned()) throw ApiError(400, "scene_of must be the number of a job");
+  JobSpec spec = job_wishes(body);
+  spec.settings = settings_from_json(body.value("settings", json::object()));
+  JobSubject other = job_subject(farm, JobId{body["scene_of"].get<std::uint64_t>()});
+  if (spec.name.empty()) spec.name = std::move(other.job.name);
+  spec.parameters = std::move(other.job.parameters);
+  spec.scene_hash = std::move(other.subject.scene_hash);
+  spec.scene_bytes = std::move(other.subject.scene);
+  return spec;
+}
+
 ApiResponse submit_job(const Call& call) {
-  JobSpec spec = submitted_job(parse_json(call.request.body), call.doors.scenes);
+  const json body = parse_json(call.request.body);
+  JobSpec spec = body.contains("scene_of") ? job_like_another(body, call.doors.farm)
+                                           : submitted_job(body, call.doors.scenes);
   ApiResponse response =
       shown(call.doors.farm.ask([spec = std::move(spec)](Farm& farm, FarmTime now) mutable {
         const JobId id = farm.submit(std::move(spec), now);

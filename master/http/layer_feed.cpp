@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "master/http/api_error.h"
+#include "master/http/farm_door.h"
 
 namespace rayfarm {
 namespace {
@@ -36,7 +36,9 @@ FeedNews LayerPoller::poll(std::uint32_t most_tiles) {
   LayerNews seen;
   try {
     seen = look(most_tiles);
-  } catch (const ApiError& error) {
+  } catch (const FarmUnavailable&) {
+    throw;  // it may be there the next time
+  } catch (const std::exception& error) {
     seen.state = state_.value_or(LayerState{});
     seen.state.state = LayerProgress::failed;
     seen.state.message = error.what();

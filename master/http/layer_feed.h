@@ -39,7 +39,8 @@ class LayerPoller {
  public:
   LayerPoller(std::uint32_t id, LayerSource source) : source_(std::move(source)) { sent_.id = id; }
 
-  /// What is new, at most so many tiles. What the source throws becomes the layer's state.
+  /// What is new, at most so many tiles. What the source throws becomes the layer's state, but
+  /// for FarmUnavailable.
   FeedNews poll(std::uint32_t most_tiles);
 
  private:

@@ -8,6 +8,7 @@
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
+#include <utility>
 
 #include "master/http/api_error.h"
 #include "master/http/live_json.h"
@@ -52,8 +53,9 @@ struct LiveSessions::Session {
   std::set<Session*>& all;
 };
 
-LiveSessions::LiveSessions(asio::io_context& io, const Doors& doors, std::chrono::milliseconds patience)
-    : io_(io), patience_(patience), reporter_(doors) {}
+LiveSessions::LiveSessions(asio::io_context& io, asio::thread_pool& threads, const Doors& doors,
+                           std::chrono::milliseconds patience)
+    : io_(io), threads_(threads), patience_(patience), reporter_(doors) {}
 
 asio::awaitable<void> LiveSessions::serve(beast::tcp_stream stream,
                                           beast::http::request<beast::http::string_body> request) {
@@ -64,7 +66,7 @@ asio::awaitable<void> LiveSessions::serve(beast::tcp_stream stream,
   session->socket.auto_fragment(false);
   try {
     co_await session->socket.async_accept(request, asio::use_awaitable);
-    if (!is_reporting_) asio::co_spawn(io_, report(), asio::detached);
+    if (!std::exchange(is_reporting_, true)) asio::co_spawn(io_, report(), asio::detached);
     asio::co_spawn(io_, write_all(session), asio::detached);
     co_await read_all(*session);
   } catch (const std::exception&) {  // it has gone, or was left
@@ -121,7 +123,6 @@ asio::awaitable<void> LiveSessions::write_all(std::shared_ptr<Session> session) 
 
 /// While anybody looks.
 asio::awaitable<void> LiveSessions::report() {
-  is_reporting_ = true;
   asio::steady_timer pause(io_);
   while (!sessions_.empty()) {
     pause.expires_after(look_interval);

@@ -24,16 +24,14 @@ constexpr std::string_view live_path = "/api/v1/live";
 
 class LiveSessions {
  public:
-  /// `patience`: with a viewer that takes nothing. What runs in `io` must be gone before this is.
-  LiveSessions(boost::asio::io_context& io, const Doors& doors, std::chrono::milliseconds patience);
+  /// Looks things up on `threads`. `patience`: with a viewer that takes nothing. What runs in `io` and in
+  /// `threads` must be gone before this is.
+  LiveSessions(boost::asio::io_context& io, boost::asio::thread_pool& threads, const Doors& doors,
+               std::chrono::milliseconds patience);
 
   /// Talks with a viewer until it ends. The request asks for the upgrade, and may.
   boost::asio::awaitable<void> serve(boost::beast::tcp_stream stream,
                                      boost::beast::http::request<boost::beast::http::string_body> request);
-
-  /// Looks nothing up any more; join() waits for what is being looked up.
-  void stop() { threads_.stop(); }
-  void join() { threads_.join(); }
 
  private:
   struct Session;
@@ -47,12 +45,12 @@ class LiveSessions {
   void leave_the_stuck();
 
   boost::asio::io_context& io_;
+  boost::asio::thread_pool& threads_;
   const std::chrono::milliseconds patience_;
   LiveHub hub_;
   LiveReporter reporter_;
   std::set<Session*> sessions_;
   bool is_reporting_ = false;
-  boost::asio::thread_pool threads_{1};  // the reporter's
 };
 
 }  // namespace rayfarm

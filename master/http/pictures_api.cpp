@@ -1,25 +1,73 @@
-// A job's picture as a file.
+// A job's picture as a file, and how far two of them are apart.
 #include <nlohmann/json.hpp>
 
 #include "common/net/codec.h"
-#include "master/files/image_file.h"
+#include "master/files/difference.h"
+#include "master/files/film_picture.h"
 #include "master/http/film_snapshot.h"
-#include "master/http/route.h"
+#include "master/http/query.h"
 
 namespace rayfarm {
 namespace {
+
+using nlohmann::json;
 
 ApiResponse show_film(const Call& call) {
   return {200, "application/octet-stream", encode_film(*film_snapshot(call.doors.farm, job_id(call)))};
 }
 
-ApiResponse show_picture(const Call& call) {
-  return {200, "image/png", png_bytes(preview(*film_snapshot(call.doors.farm, job_id(call))))};
+Picture picture_of(const FarmDoor& farm, JobId id) {
+  const std::shared_ptr<const Film> film = film_snapshot(farm, id);
+  const auto job = farm.ask([id](Farm& f, FarmTime now) { return f.job(id, now); });
+  if (!job) throw no_such_job(id);
+  return film_picture(*film, job->scene_hash, job->settings);
+}
+
+ApiResponse show_exr(const Call& call) {
+  return {200, "image/x-exr", exr_bytes(picture_of(call.doors.farm, job_id(call)))};
+}
+
+ApiResponse show_png(const Call& call) {
+  const std::optional<std::uint32_t> longest_side = whole_in(call, "longest_side");
+  if (!longest_side) return {200, "image/png", png_bytes(picture_of(call.doors.farm, job_id(call)))};
+  if (*longest_side == 0) throw ApiError(400, "longest_side must be 1 or more");
+  const std::shared_ptr<const Film> film = film_snapshot(call.doors.farm, job_id(call));
+  return {200, "image/png", png_bytes(preview(*film, *longest_side))};
+}
+
+// Two pictures. --------------------------------------------------------------------------------------------
+
+struct Pair {
+  Picture a, b;
+};
+
+Pair pictures_of(const Call& call) {
+  Pair pair{picture_of(call.doors.farm, job_id(call)), picture_of(call.doors.farm, job_id(call, 1))};
+  if (pair.a.size == pair.b.size) return pair;
+  const auto text = [](Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); };
+  throw ApiError(409, "only pictures of the same size can be compared: these have " + text(pair.a.size) +
+                          " and " + text(pair.b.size) + " pixels");
+}
+
+ApiResponse show_difference(const Call& call) {
+  const Pair pair = pictures_of(call);
+  json values;
+  for (const Metric metric : {Metric::rmse, Metric::mae, Metric::max, Metric::flip})
+    values[std::string(name_of(metric))] = difference(pair.a, pair.b, metric).value;
+  return shown(values);
+}
+
+ApiResponse show_flip(const Call& call) {
+  const Pair pair = pictures_of(call);
+  return {200, "image/png", png_bytes(difference(pair.a, pair.b, Metric::flip).picture)};
 }
 
 constexpr Route routes[]{
     {"GET", "/api/v1/jobs/{id}/film", show_film, Work::picture},
-    {"GET", "/api/v1/jobs/{id}/picture.png", show_picture, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/picture.png", show_png, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/picture.exr", show_exr, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/difference/{other}", show_difference, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/difference/{other}/flip.png", show_flip, Work::picture},
 };
 
 }  // namespace

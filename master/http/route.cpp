@@ -11,8 +11,8 @@ ApiResponse shown(const nlohmann::json& value) {
   return {200, "application/json", value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
-JobId job_id(const Call& call) {
-  const std::string& text = call.arguments.at(0);
+JobId job_id(const Call& call, std::size_t argument) {
+  const std::string& text = call.arguments.at(argument);
   std::uint64_t id = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
   if (error != std::errc{} || end != text.data() + text.size())

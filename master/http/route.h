@@ -54,8 +54,8 @@ std::span<const Route> page_routes();
 // What handlers share.
 
 ApiResponse shown(const nlohmann::json& value);
-/// The job in the path. Throws ApiError.
-JobId job_id(const Call& call);
+/// The job in the path, or another one there. Throws ApiError.
+JobId job_id(const Call& call, std::size_t argument = 0);
 /// A whole number in the query; 0 when it is not there or none.
 std::uint64_t number_in(const std::map<std::string, std::string>& query, const std::string& name);
 /// The members of a command's body; an empty body has none. Throws ApiError.

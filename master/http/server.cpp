@@ -1,7 +1,5 @@
 #include "master/http/server.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
@@ -15,11 +13,12 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <charconv>
+#include <list>
 #include <thread>
 
 #include "master/http/api.h"
 #include "master/http/guard.h"
+#include "master/http/listen.h"
 #include "master/http/live_session.h"
 #include "master/http/submission.h"
 
@@ -32,45 +31,12 @@ namespace http = beast::http;
 using asio::ip::tcp;
 
 constexpr std::uint32_t header_limit = 8 * 1024;
-constexpr std::uint64_t memory_for_bodies = 4 * submission_limit;  // of all peers together
-constexpr auto write_patience = std::chrono::seconds(600);         // a film of gigabytes over 100 Mbit/s
+constexpr std::uint64_t memory_for_bodies = 4 * submission_limit;     // of all peers together
+constexpr std::uint64_t memory_for_answers = std::uint64_t{1} << 30;  // that peers have not taken yet
+constexpr std::uint64_t large_answer = 1 << 20;                       // bytes; smaller ones are not counted
+constexpr auto write_patience = std::chrono::seconds(60);             // while the peer takes nothing
 constexpr auto farewell_patience = std::chrono::seconds(2);
 constexpr auto news_glance = std::chrono::milliseconds(100);  // the changes of many tiles make one answer
-
-tcp::endpoint endpoint_of(const std::string& listen) {
-  const HttpError wrong("--http wants ADDRESS:PORT, as in 127.0.0.1:5412 or [::1]:5412, is " + listen);
-  const std::size_t colon = listen.rfind(':');
-  if (colon == std::string::npos) throw wrong;
-  std::string address = listen.substr(0, colon);
-  if (address.starts_with('[') && address.ends_with(']')) address = address.substr(1, address.size() - 2);
-  if (address == "localhost") address = "127.0.0.1";
-
-  std::uint16_t port = 0;
-  const char *begin = listen.data() + colon + 1, *end = listen.data() + listen.size();
-  const auto [stop, error] = std::from_chars(begin, end, port);
-  boost::system::error_code no_address;
-  const asio::ip::address parsed = asio::ip::make_address(address, no_address);
-  if (error != std::errc{} || stop != end || no_address) throw wrong;
-  return {parsed, port};
-}
-
-tcp::acceptor acceptor_at(asio::io_context& io, const HttpSettings& settings) {
-  const tcp::endpoint endpoint = endpoint_of(settings.listen);
-  if (!endpoint.address().is_loopback() && !settings.insecure)
-    throw HttpError("the HTTP API has no encryption yet, so it listens on loopback only; " + settings.listen +
-                    " needs --insecure");
-  try {
-    return tcp::acceptor(io, endpoint);
-  } catch (const boost::system::system_error& error) {
-    throw HttpError("cannot listen on " + settings.listen + ": " + error.code().message() +
-                    "; choose another address with --http");
-  }
-}
-
-std::string pc_name() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
-}
 
 using RequestParser = http::request_parser<http::string_body>;
 using Response = http::response<http::span_body<const char>>;
@@ -113,17 +79,33 @@ bool is_live(const RequestParser::value_type& request) {
   return beast::websocket::is_upgrade(request) && request.target() == live_path;
 }
 
-/// Some of the memory that all bodies share, until it is let go.
-class BodyShare {
+/// Some of the memory that many share, until it is let go.
+class MemoryShare {
  public:
-  BodyShare(std::uint64_t& taken, std::uint64_t bytes) : taken_(taken), bytes_(bytes) { taken_ += bytes_; }
-  ~BodyShare() { taken_ -= bytes_; }
-  BodyShare(const BodyShare&) = delete;
-  BodyShare& operator=(const BodyShare&) = delete;
+  MemoryShare(std::uint64_t& taken, std::uint64_t bytes) : taken_(taken), bytes_(bytes) { taken_ += bytes_; }
+  ~MemoryShare() { taken_ -= bytes_; }
+  MemoryShare(const MemoryShare&) = delete;
+  MemoryShare& operator=(const MemoryShare&) = delete;
 
  private:
   std::uint64_t& taken_;
   const std::uint64_t bytes_;
+};
+
+/// Connections that wait for a request, the one that has waited longest first.
+using IdleConnections = std::list<beast::tcp_stream*>;
+
+class IdleTime {
+ public:
+  IdleTime(IdleConnections& all, beast::tcp_stream& stream)
+      : all_(all), place_(all.insert(all.end(), &stream)) {}
+  ~IdleTime() { all_.erase(place_); }
+  IdleTime(const IdleTime&) = delete;
+  IdleTime& operator=(const IdleTime&) = delete;
+
+ private:
+  IdleConnections& all_;
+  const IdleConnections::iterator place_;
 };
 
 /// How much the peer may still send: what it announced, or the limit when it did not.
@@ -150,10 +132,9 @@ struct HttpServer::Parts {
   Parts(const HttpSettings& settings, const Doors& doors)
       : settings(settings),
         doors(doors),
-        live(io, doors, settings.viewer_patience),
+        live(io, live_threads, doors, settings.viewer_patience),
         acceptor(acceptor_at(io, settings)) {
-    const asio::ip::address address = acceptor.local_endpoint().address();
-    listening = {address.to_string(), address.is_loopback(), pc_name()};
+    listening = address_of(acceptor);
   }
 
   asio::awaitable<void> accept_all();
@@ -172,13 +153,16 @@ struct HttpServer::Parts {
   const Doors doors;
   ListenAddress listening;
   int connections = 0;
-  std::uint64_t body_bytes = 0;  // that peers may send just now
+  IdleConnections idle;
+  std::uint64_t body_bytes = 0;    // that peers may send just now
+  std::uint64_t answer_bytes = 0;  // that peers have not taken yet
   LiveSessions live;
   // What waits in these owns sessions, which use the members above.
   asio::io_context io{1};
   tcp::acceptor acceptor;
   std::array<asio::thread_pool, 4> threads{asio::thread_pool(1), asio::thread_pool(1), asio::thread_pool(2),
                                            asio::thread_pool(1)};  // by kind of work
+  asio::thread_pool live_threads{1};
   std::jthread thread;
 };
 
@@ -191,7 +175,10 @@ asio::awaitable<void> HttpServer::Parts::accept_all() {
       co_await pause.async_wait(asio::use_awaitable);
       continue;
     }
-    if (connections >= max_http_connections) continue;  // closes it
+    if (connections >= settings.connections) {
+      if (idle.empty()) continue;  // closes it
+      idle.front()->close();
+    }
     ++connections;
     asio::co_spawn(io, session(beast::tcp_stream(std::move(socket))), asio::detached);
   }
@@ -228,8 +215,12 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
   parser.body_limit(submission_limit);
   boost::system::error_code error;
 
-  stream.expires_after(settings.header_patience);
-  co_await http::async_read_header(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+  {
+    const IdleTime idling(idle, stream);
+    stream.expires_after(settings.header_patience);
+    co_await http::async_read_header(stream, buffer, parser,
+                                     asio::redirect_error(asio::use_awaitable, error));
+  }
   ApiRequest request = api_request(parser.get());
   std::optional<ApiResponse> refused = error ? complaint(error) : refusal(request, listening);
   if (error && !refused) co_return Then::farewell;
@@ -238,7 +229,7 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
   if (!refused && expected > limit) refused = complaint(http::error::body_limit);
   if (!refused && body_bytes + expected > memory_for_bodies)
     refused = error_response(503, "too many scenes are being submitted at once; try again");
-  const BodyShare share(body_bytes, refused ? 0 : expected);  // ends with the answer
+  const MemoryShare share(body_bytes, refused ? 0 : expected);  // ends with the answer
 
   if (!refused) {
     parser.body_limit(limit);  // for a body in chunks, which does not tell its size
@@ -261,9 +252,16 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
 
 asio::awaitable<Then> HttpServer::Parts::reply(beast::tcp_stream& stream, ApiResponse answer,
                                                const RequestParser::value_type& request, bool keep_alive) {
+  if (answer.body.size() >= large_answer && answer_bytes > 0 &&
+      answer_bytes + answer.body.size() > memory_for_answers)
+    answer = error_response(503, "too many pictures are being fetched at once; try again");
+  const MemoryShare share(answer_bytes, answer.body.size() >= large_answer ? answer.body.size() : 0);
   Response response = http_response(answer, request, keep_alive);
-  stream.expires_after(write_patience);
-  co_await http::async_write(stream, response, asio::use_awaitable);
+  http::response_serializer<http::span_body<const char>> serializer(response);
+  while (!serializer.is_done()) {
+    stream.expires_after(write_patience);
+    co_await http::async_write_some(stream, serializer, asio::use_awaitable);
+  }
   co_return response.keep_alive() ? Then::next_request : Then::farewell;
 }
 
@@ -311,19 +309,14 @@ HttpServer::HttpServer(const HttpSettings& settings, const Doors& doors)
 
 HttpServer::~HttpServer() {
   for (asio::thread_pool& pool : parts_->threads) pool.stop();  // what has not begun is dropped
-  parts_->live.stop();
+  parts_->live_threads.stop();
   parts_->doors.farm.close();
   parts_->io.stop();
   parts_->thread.join();
   for (asio::thread_pool& pool : parts_->threads) pool.join();
-  parts_->live.join();
+  parts_->live_threads.join();
 }
 
-std::string HttpServer::url() const {
-  const tcp::endpoint endpoint = parts_->acceptor.local_endpoint();
-  const std::string address = endpoint.address().to_string();
-  return "http://" + (endpoint.address().is_v6() ? "[" + address + "]" : address) + ":" +
-         std::to_string(endpoint.port());
-}
+std::string HttpServer::url() const { return url_of(parts_->acceptor); }
 
 }  // namespace rayfarm

@@ -1,6 +1,8 @@
 // The HTTP server: a thread of its own with Boost.Beast, which no other room sees.
 //
-// Bounds on every peer: header 8 KB, body as the API says, a deadline on each step, 128 connections at once.
+// Bounds on every peer: header 8 KB, body as the API says, a deadline on each step. When there are too many
+// connections, the one that has been idle longest is closed. Of answers over 1 MB, 1 GB in all waits for its
+// readers.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -13,7 +15,6 @@
 namespace rayfarm {
 
 constexpr std::uint16_t default_http_port = 5412;
-constexpr int max_http_connections = 128;  // more are closed at once
 
 /// The server cannot listen; the message names the address and the fix.
 struct HttpError : std::runtime_error {
@@ -23,6 +24,7 @@ struct HttpError : std::runtime_error {
 struct HttpSettings {
   std::string listen = "127.0.0.1:5412";              // ADDRESS:PORT; port 0: any free one
   bool insecure = false;                              // without it only loopback is listened to
+  int connections = 1024;                             // at once, viewers among them
   std::chrono::milliseconds header_patience{30'000};  // also how long an idle connection is kept
   std::chrono::milliseconds body_patience{60'000};    // 64 MB from a slow PC of the lab
   std::chrono::milliseconds viewer_patience{60'000};  // with one who takes nothing of what it watches

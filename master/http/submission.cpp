@@ -72,8 +72,8 @@ int priority_from_json(const json& value) {
 }
 
 JobSpec job_wishes(const json& body) {
-  constexpr std::array known{"scene",  "scene_name", "script", "script_name", "parameters", "name",
-                             "output", "priority",   "hold",   "key",         "settings"};
+  constexpr std::array known{"scene", "scene_name", "scene_of", "script", "script_name", "parameters",
+                             "name",  "output",     "priority", "hold",   "key",         "settings"};
   for (const auto& [name, ignored] : body.items())
     if (std::find(known.begin(), known.end(), name) == known.end()) throw ApiError(400, name + " is unknown");
 

@@ -111,7 +111,13 @@ json FarmPrograms::job(const std::string& id) const { return ask("/api/v1/jobs/"
 std::string FarmPrograms::state_of(const std::string& id) const { return job(id).at("state"); }
 std::uint64_t FarmPrograms::pixels_of(const std::string& id) const { return job(id).at("pixels_done"); }
 
-json FarmPrograms::workers() const { return ask("/api/v1/workers").at("workers"); }
+json FarmPrograms::workers() const {
+  const json all = ask("/api/v1/workers").at("workers");
+  json here = json::array();
+  for (const json& worker : all)
+    if (worker.at("state") != "dialling" && worker.at("state") != "banned") here.push_back(worker);
+  return here;
+}
 
 json FarmPrograms::worker_view(const std::string& name) const {
   for (const json& worker : workers())

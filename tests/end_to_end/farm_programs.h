@@ -58,7 +58,7 @@ class FarmPrograms : public testing::Test {
   nlohmann::json job(const std::string& id) const;
   std::string state_of(const std::string& id) const;
   std::uint64_t pixels_of(const std::string& id) const;
-  nlohmann::json workers() const;
+  nlohmann::json workers() const;  // that are here
   /// Null when it is not there.
   nlohmann::json worker_view(const std::string& name) const;
   bool is_here(const std::string& name) const;

@@ -72,6 +72,14 @@ TEST_F(Steering, ADrainedWorkerHoldsNothingUntilItIsUndrained) {
   expect_the_worker_is_free();
 }
 
+TEST_F(Steering, ABannedWorkerIsGoneUntilItIsUnbanned) {
+  slow_job();
+  command({"ban", "pc"});
+  wait_for_workers(0);
+  command({"unban", "pc"});
+  wait_for_workers(1);
+}
+
 TEST_F(Steering, APictureThatWasPausedInTheMiddleHasTheSameBytes) {
   const std::string id = submit(medium);
   wait_for_pixels(id);

@@ -4,6 +4,7 @@
 #include <future>
 
 #include "common/net/run_until_end.h"
+#include "master/http/doors.h"
 #include "master/sessions.h"
 
 namespace rayfarm {
@@ -38,6 +39,17 @@ class MasterThread {
   template <class Question>
   auto ask(Question question) {
     return on_thread([&] { return farm_.apply(question); });
+  }
+  /// For an HTTP server.
+  OnFarm on_farm() {
+    return [this](std::function<void(Farm&, FarmTime)> question) {
+      asio::post(io_, [this, question = std::move(question)] { farm_.apply(question); });
+    };
+  }
+  MasterDoor door() {
+    return {[this](const std::string& target) { sessions_.dial(parse_dial_target(target)); },
+            [this] { return sessions_.dialling(); },
+            [this](std::uint64_t after) { return farm_.log().after(after); }};
   }
   /// Waits until the farm says yes.
   template <class Question>

@@ -18,8 +18,10 @@ inline MasterDoor lone_master() {
 
 class TestServer {
  public:
-  explicit TestServer(OnFarm on_farm, HttpSettings settings = {.listen = "127.0.0.1:0"})
+  explicit TestServer(OnFarm on_farm, HttpSettings settings = {.listen = "127.0.0.1:0"},
+                      MasterDoor master = lone_master())
       : door_(std::move(on_farm)),
+        master_(std::move(master)),
         server_(
             std::move(settings),
             {.farm = door_, .diagnostics = diagnostics_, .master = master_, .app = app_, .scenes = scenes_}) {
@@ -32,7 +34,7 @@ class TestServer {
 
  private:
   FarmDoor door_;
-  const MasterDoor master_ = lone_master();
+  const MasterDoor master_;
   Diagnostics diagnostics_{1};
   const AppFiles app_;
   const SceneLibrary scenes_;

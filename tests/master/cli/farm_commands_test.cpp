@@ -5,10 +5,9 @@
 #include <atomic>
 #include <nlohmann/json.hpp>
 
-#include "master/http/server.h"
 #include "tests/support/child_program.h"
-#include "tests/support/farm_thread.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test_server.h"
 
 namespace rayfarm {
 namespace {
@@ -40,7 +39,7 @@ class FarmCommands : public testing::Test {
 
   ScratchFolder folder;
   FarmThread farm;
-  HttpServer server{{.listen = "127.0.0.1:0"}, [this](FarmThread::Task task) { farm.post(std::move(task)); }};
+  TestServer server{door_to(farm)};
   std::map<std::string, std::string> environment{{"RAYFARM_MASTER", server.url()}};
 };
 
@@ -123,6 +122,9 @@ TEST_F(FarmCommands, JobsAndWorkersAreTablesOrJson) {
   EXPECT_EQ(rayfarm({"drain", "pc 1"}).exit_code, 0);
   EXPECT_EQ(json::parse(rayfarm({"workers", "--json"}).out)["workers"][0]["state"], "drained");
   EXPECT_EQ(rayfarm({"undrain", "pc 1"}).exit_code, 0);
+  EXPECT_EQ(rayfarm({"ban", "pc 1"}).exit_code, 0);
+  EXPECT_NE(rayfarm({"workers"}).out.find("banned"), std::string::npos);
+  EXPECT_EQ(rayfarm({"unban", "pc 1"}).exit_code, 0);
 }
 
 // The workers never answer, so the job never ends by itself.
@@ -148,7 +150,7 @@ TEST_F(FarmCommands, AWaitGoesOnWhileTheMasterIsBusy) {
   farm.add_renderer("pc1");
   const std::string id = submit();
   std::atomic_flag was_busy;
-  const HttpServer busy({.listen = "127.0.0.1:0"}, [&](FarmThread::Task task) {
+  const TestServer busy([&](FarmThread::Task task) {
     if (was_busy.test_and_set()) farm.post(std::move(task));
   });
   environment["RAYFARM_MASTER"] = busy.url();

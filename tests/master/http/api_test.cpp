@@ -4,8 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/net/address.h"
 #include "common/net/codec.h"
+#include "master/files/film_picture.h"
 #include "master/http/submission.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/support/test_server.h"
 #include "tests/support/test_submission.h"
 
@@ -53,6 +56,29 @@ TEST_F(Api, ASubmittedJobIsListedAndShownWithItsSettings) {
   EXPECT_EQ(get_json("/api/v1/jobs/" + job["id"].dump())["name"], "small");
 }
 
+TEST_F(Api, AJobCanHaveTheSceneOfAnotherWithSettingsOfItsOwn) {
+  JobSpec spec = small_job();
+  spec.parameters = {{"depth", "3"}};
+  const std::string id = submit(spec);
+  const json like = {{"scene_of", std::stoull(id)}, {"settings", {{"width", 20u}, {"height", 10u}}}};
+  const json job = json::parse(post("/api/v1/jobs", like).body);
+  EXPECT_EQ(job["scene_hash"], spec.scene_hash);
+  EXPECT_EQ(job["name"], spec.name);
+  EXPECT_EQ(job["parameters"], json({{"depth", "3"}}));
+  EXPECT_EQ(job["settings"]["width"], 20);
+  EXPECT_EQ(job["settings"]["spp"], RenderSettings{}.spp);
+}
+
+TEST_F(Api, ASceneThatIsNotThereIsNoJobs) {
+  EXPECT_EQ(post("/api/v1/jobs", {{"scene_of", 7u}}).status, 404u);
+  EXPECT_EQ(post("/api/v1/jobs", {{"scene_of", "7"}}).status, 400u);
+  const std::string id = submit();
+  EXPECT_EQ(post("/api/v1/jobs", {{"scene_of", std::stoull(id)}, {"script", ""}}).status, 400u);
+  post("/api/v1/jobs/" + id + "/cancel");
+  EXPECT_EQ(post("/api/v1/jobs", {{"scene_of", std::stoull(id)}}).status, 409u);
+  EXPECT_EQ(get_json("/api/v1/jobs")["jobs"].size(), 1u);
+}
+
 TEST_F(Api, TheFilmOfADoneJobIsTheFarms) {
   farm.add_renderer("pc1");
   const std::string id = submit();
@@ -95,6 +121,80 @@ TEST_F(Api, AWorkerWithABrokenNameDoesNotBreakTheList) {
   farm.add_idler("pc\xff");
   EXPECT_EQ(get("/api/v1/workers").status, 200u);
   EXPECT_TRUE(get_json("/api/v1/workers")["workers"][0]["name"].is_string());
+}
+
+TEST_F(Api, AWorkerIsBannedAndListedSoUntilItIsUnbanned) {
+  farm.add_idler("pc7");
+  EXPECT_EQ(post("/api/v1/workers/pc7/ban").status, 200u);
+  const json workers = get_json("/api/v1/workers")["workers"];
+  ASSERT_EQ(workers.size(), 1u);
+  EXPECT_EQ(workers[0]["name"], "pc7");
+  EXPECT_EQ(workers[0]["state"], "banned");
+  EXPECT_EQ(post("/api/v1/workers/pc7/unban").status, 200u);
+  EXPECT_NE(get_json("/api/v1/workers")["workers"][0]["state"], "banned");
+  EXPECT_EQ(post("/api/v1/workers/nobody/ban").status, 404u);
+  EXPECT_EQ(post("/api/v1/workers/nobody/unban").status, 404u);
+}
+
+TEST_F(Api, AWorkerIsDialledOrABadAddressNamed) {
+  std::vector<std::string> dialled;
+  master.dial = [&](const std::string& target) {
+    if (target.find('=') == std::string::npos) throw AddressError("\"" + target + "\" is no worker to dial");
+    dialled.push_back(target);
+  };
+  master.dialling = [] { return std::vector<Dialling>{{"lab1", "192.168.1.11:5411", "no route to host"}}; };
+  EXPECT_EQ(post("/api/v1/workers", {{"dial", "lab1=192.168.1.11"}}).status, 201u);
+  EXPECT_EQ(dialled, std::vector<std::string>{"lab1=192.168.1.11"});
+  const json worker = get_json("/api/v1/workers")["workers"].at(0);
+  EXPECT_EQ(worker["state"], "dialling");
+  EXPECT_EQ(worker["address"], "192.168.1.11:5411");
+  EXPECT_EQ(worker["message"], "no route to host");
+  const ApiResponse bad = post("/api/v1/workers", {{"dial", "lab1"}});
+  EXPECT_EQ(bad.status, 422u);
+  EXPECT_EQ(json::parse(bad.body)["error"], "\"lab1\" is no worker to dial");
+  EXPECT_EQ(post("/api/v1/workers", {{"dail", "lab1=a"}}).status, 400u);
+  EXPECT_EQ(post("/api/v1/workers", {{"dial", "lab1=a\nb"}}).status, 422u);
+}
+
+TEST_F(Api, TheLogIsToldFromANumberOn) {
+  master.log = [](std::uint64_t after) {
+    EventLog log;
+    for (const char* text : {"a", "b", "c"}) log.add({true, text, "pc7"}, FarmTime{});
+    return log.after(after);
+  };
+  const json log = get_json("/api/v1/log?after=1");
+  EXPECT_EQ(log["last"], 3);
+  ASSERT_EQ(log["lines"].size(), 2u);
+  EXPECT_EQ(log["lines"][0]["text"], "b");
+  EXPECT_EQ(log["lines"][0]["worker"], "pc7");
+  EXPECT_EQ(get_json("/api/v1/log?after=3")["last"], 3);
+}
+
+TEST_F(Api, TwoPicturesAreComparedAndWrittenAsTheCommandDoes) {
+  farm.add_renderer("pc1");
+  JobSpec other = small_job(), smaller = small_job();
+  other.settings.seed = 1;
+  smaller.settings.width = 32;
+  const std::string a = submit(), b = submit(other), c = submit(smaller);
+  for (const std::string& id : {a, b, c}) wait_until_done(id);
+  const json same = get_json("/api/v1/jobs/" + a + "/difference/" + a),
+             not_same = get_json("/api/v1/jobs/" + a + "/difference/" + b);
+  for (const char* metric : {"rmse", "mae", "max", "flip"}) {
+    EXPECT_EQ(same[metric], 0.0) << metric;
+    EXPECT_GT(not_same[metric], 0.0) << metric;
+  }
+  EXPECT_EQ(get("/api/v1/jobs/" + a + "/difference/" + b + "/flip.png").content_type, "image/png");
+  const ApiResponse sizes_differ = get("/api/v1/jobs/" + a + "/difference/" + c);
+  EXPECT_EQ(sizes_differ.status, 409u);
+  EXPECT_NE(sizes_differ.body.text().find("96x80 and 32x80"), std::string_view::npos);
+  EXPECT_EQ(get("/api/v1/jobs/" + a + "/difference/99").status, 404u);
+
+  const ScratchFolder folder;
+  farm.run([&](Farm& f, FarmTime now) {
+    const JobView job = *f.job(JobId{std::stoull(a)}, now);
+    write_picture(folder / "a.exr", film_picture(*f.film(job.id), job.scene_hash, job.settings));
+  });
+  EXPECT_EQ(get("/api/v1/jobs/" + a + "/picture.exr").body.text(), content_of(folder / "a.exr"));
 }
 
 TEST_F(Api, WhatIsNotThereIs404AndAWrongMethod405) {

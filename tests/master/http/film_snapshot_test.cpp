@@ -87,7 +87,7 @@ TEST(Preview, OfALargePictureIsEachNthPixelOfTheFilledOne) {
   for (std::uint32_t tile = 0; tile < tile_count(film.size()); ++tile)
     for (int pass = 0; pass < pass_count; ++pass)
       if (tile >> pass & 1) put_pass(film, tile, pass);
-  const Picture picture = preview(film);
+  const Picture picture = preview(film, 4096);
   const std::vector<float> filled = film.filled();
   EXPECT_EQ(picture.size, (Size{3000, 24}));
   std::vector<float> expected;

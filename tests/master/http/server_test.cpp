@@ -182,6 +182,13 @@ TEST(HttpServer, LargeBodiesShareABoundedMemory) {
     }
 }
 
+// 200 MB of a script are not taken in before they are refused.
+TEST_F(Server, RefusesAHugeScriptByItsAnnouncedLength) {
+  EXPECT_EQ(status_line("POST /api/v1/scripts HTTP/1.1\r\n" + host +
+                        "Content-Type: application/json\r\nContent-Length: 200000000\r\n\r\n"),
+            "HTTP/1.1 413 Payload Too Large");
+}
+
 TEST_F(Server, RefusesABodyInChunksOnceItIsTooLarge) {
   std::string request = "POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host +
                         "Content-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n";
@@ -204,16 +211,19 @@ TEST_F(Server, ASilentOrSlowPeerIsLeft) {
             "");
 }
 
-TEST_F(Server, MoreConnectionsThanItHasRoomForAreClosed) {
+// Each is served at once, however many do nothing: the one that has been idle longest makes room.
+TEST(HttpServer, WhereThereIsNoRoomTheLongestIdleGoes) {
+  FarmThread farm;
+  const TestServer server(door_to(farm), {.listen = "127.0.0.1:0", .connections = 8});
+  const std::string request = "GET /api/v1/version HTTP/1.1\r\n" + host + "\r\n";
   std::list<RawPeer> peers;
-  for (int i = 0; i < max_http_connections + 1; ++i) peers.emplace_back(port());
-  EXPECT_EQ(peers.back().some(), "");
-  peers.clear();
-  HttpReply reply;
-  while (reply.status != 200) try {
-      reply = get("/api/v1/version");
-    } catch (const MasterUnreachable&) {  // its peers have not all been seen to leave yet
-    }
+  for (int i = 0; i < 30; ++i) {
+    peers.emplace_back(server.port()).send(request);
+    EXPECT_TRUE(peers.back().some().starts_with("HTTP/1.1 200")) << i;
+  }
+  EXPECT_EQ(peers.front().rest(), "");
+  peers.back().send(request);
+  EXPECT_TRUE(peers.back().some().starts_with("HTTP/1.1 200"));
 }
 
 // What a film asks of the farm is kept here, so that two films keep the threads for long work busy.

@@ -153,6 +153,50 @@ TEST(Sessions, WaitLongerEachTimeForADialledWorkerThatIsThrownOut) {
   EXPECT_GE(std::chrono::steady_clock::now() - begun, 300ms) << "half of 40, 80, 160 and 320 ms";
 }
 
+TEST(Sessions, EndWithABannedWorkerAndRefuseItUntilItIsUnbanned) {
+  MasterThread master;
+  Guest guest(master, "lab7");
+  EXPECT_TRUE(master.ask([](Farm& farm, FarmTime now) { return farm.ban("lab7", now); }));
+  EXPECT_NE(guest.receive_a<Refused>().reason.find("lab7 is banned"), std::string::npos);
+  guest.wait_for_end();
+  master.wait_for_workers(0);
+
+  Peer again(master);
+  again.send(hello_from("lab7"));
+  EXPECT_NE(again.receive_a<Refused>().reason.find("rayfarm unban lab7"), std::string::npos);
+  again.wait_for_end();
+  EXPECT_TRUE(master.ask([](Farm& farm, FarmTime now) { return farm.unban("lab7", now); }));
+  Guest(master, "lab7");
+}
+
+TEST(Sessions, TellOfADialledWorkerWhyItIsNotReached) {
+  MasterThread master;
+  asio::io_context io;
+  asio::ip::tcp::acceptor door(io, {asio::ip::address_v4::loopback(), 0});
+  const Address address{"127.0.0.1", door.local_endpoint().port()};
+  door.close();  // nobody is there
+  master.dial({"lab7", address});
+  master.dial({"lab7", address});  // is the same
+  std::vector<Dialling> dialling;
+  do dialling = master.ask([&](Farm&, FarmTime) { return master.door().dialling(); });
+  while (dialling.at(0).message.empty());
+  ASSERT_EQ(dialling.size(), 1u);
+  EXPECT_EQ(dialling[0].name, "lab7");
+  EXPECT_EQ(dialling[0].address, text_of(address));
+  const std::vector<LogLine> log = master.ask([&](Farm&, FarmTime) { return master.door().log(0); });
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_EQ(log[0].number, 1u);
+  EXPECT_EQ(log[0].event.worker, "lab7");
+  EXPECT_TRUE(log[0].event.warning);
+
+  door = asio::ip::tcp::acceptor(io, {asio::ip::address_v4::loopback(), address.port});
+  WorkerByHand worker;
+  worker.accept(door);
+  worker.send(hello_from("its own name"));
+  EXPECT_EQ(worker.receive_a<Welcome>().name, "lab7");
+  EXPECT_TRUE(master.ask([&](Farm&, FarmTime) { return master.door().dialling().empty(); }));
+}
+
 TEST(Sessions, SayGoodbyeToAllWhenTheMasterStops) {
   MasterThread master;
   Guest one(master, "one"), two(master, "two");

@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include "tests/master/farm/fake_worker.h"
+
+namespace rayfarm {
+namespace {
+
+using namespace std::chrono_literals;
+
+WorkerInfo remote(std::string name) {
+  WorkerInfo info;
+  info.name = std::move(name), info.threads = 2;
+  return info;
+}
+
+std::string refusal_in(const std::vector<ToWorker>& messages) {
+  for (const ToWorker& message : messages)
+    if (const auto* refused = std::get_if<Refused>(&message)) return refused->reason;
+  return "";
+}
+
+TEST(Farm, ABannedWorkerIsToldAndItsTilesGoToTheOthersAtOnce) {
+  Farm farm;
+  FakeWorker bad(farm, remote("bad"));
+  farm.submit(job_of({128, 128}), 0s);
+  FakeWorker good(farm, remote("good"));
+  EXPECT_TRUE(farm.ban("bad", 1s));
+  EXPECT_NE(refusal_in(bad.take_messages()).find("rayfarm unban bad"), std::string::npos);
+  EXPECT_EQ(good.held().size(), 4u);
+  good.finish_all(2s);
+  EXPECT_EQ(farm.jobs(2s).at(0).state, JobState::done);
+}
+
+TEST(Farm, ABannedNameIsNotTakenInUntilItIsUnbanned) {
+  Farm farm;
+  FakeWorker worker(farm, remote("pc"));
+  EXPECT_EQ(farm.objection_to("pc-2"), std::nullopt);
+  EXPECT_TRUE(farm.ban("pc", 1s));
+  farm.remove_worker(worker.id(), "banned", 2s);
+  EXPECT_EQ(farm.banned(), std::vector<std::string>{"pc"});
+  EXPECT_NE(farm.objection_to("pc"), std::nullopt);
+  EXPECT_EQ(farm.objection_to("other"), std::nullopt);
+  EXPECT_TRUE(farm.unban("pc", 3s));
+  EXPECT_EQ(farm.objection_to("pc"), std::nullopt);
+  EXPECT_TRUE(farm.banned().empty());
+}
+
+TEST(Farm, NobodyBansWhoNeverWasThereNorTheMastersOwnThreads) {
+  Farm farm;
+  WorkerInfo own = remote("master");
+  own.kind = WorkerKind::local;
+  FakeWorker threads(farm, own);
+  EXPECT_FALSE(farm.ban("nobody", 0s));
+  EXPECT_FALSE(farm.ban("master", 0s));
+  EXPECT_FALSE(farm.unban("nobody", 0s));
+  EXPECT_TRUE(farm.banned().empty());
+}
+
+TEST(Farm, EventsNameTheWorkerThatTheyAreAbout) {
+  Farm farm;
+  FakeWorker worker(farm, remote("pc"));
+  farm.submit(job_of({10, 10}), 0s);
+  farm.drain("pc", 0s);
+  farm.undrain("pc", 0s);
+  farm.ban("pc", 0s);
+  farm.unban("pc", 0s);
+  farm.remove_worker(worker.id(), "gone", 1s);
+  int of_the_worker = 0;
+  for (const FarmEvent& event : farm.take_events()) {
+    const bool names_it = event.text.find("worker pc") != std::string::npos;
+    EXPECT_EQ(event.worker, names_it ? "pc" : "") << event.text;
+    of_the_worker += names_it;
+  }
+  EXPECT_EQ(of_the_worker, 6);
+}
+
+}  // namespace
+}  // namespace rayfarm
