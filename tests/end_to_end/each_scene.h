@@ -1,5 +1,9 @@
 // Laws that hold for the pictures of all bundled scenes.
 #pragma once
+#include <chrono>
+#include <random>
+#include <thread>
+
 #include "tests/end_to_end/farm_programs.h"
 
 namespace rayfarm {
@@ -14,6 +18,24 @@ inline void PrintTo(const ScenePicture& scene, std::ostream* out) { *out << scen
 class EachScene : public FarmPrograms, public testing::WithParamInterface<ScenePicture> {
  protected:
   const Words& picture() const { return GetParam().picture; }
+
+  void start_workers_to_kill() {
+    for (unsigned i = 0; i < workers_to_kill; ++i) start_worker("pc" + std::to_string(i));
+  }
+  /// Kills some of them at random instants while the job runs, and starts them again.
+  void kill_workers(const std::string& id, std::mt19937& random) {
+    constexpr int most = 8;  // then it may finish
+    for (int kills = 0; kills < most && state_of(id) != "done"; ++kills) {
+      // A random instant: nothing is waited for.
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % 30));
+      const std::string victim = "pc" + std::to_string(random() % workers_to_kill);
+      kill_worker(victim);
+      start_worker(victim);
+    }
+  }
+
+ private:
+  static constexpr unsigned workers_to_kill = 3;
 };
 
 /// Pictures of 20 tiles, some of them narrow.

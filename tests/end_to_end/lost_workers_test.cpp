@@ -1,40 +1,25 @@
 // Workers that die, hang and leave: the picture is complete, with the same bytes.
 #include <signal.h>
 
-#include <chrono>
 #include <random>
-#include <thread>
 
 #include "tests/end_to_end/each_scene.h"
 
 namespace rayfarm {
 namespace {
 
-class LostWorkers : public EachScene {
- protected:
-  /// Kills workers at random instants while the job runs, and starts them again.
-  void disturb(const std::string& id, std::mt19937& random) {
-    constexpr int most = 8;  // then it may finish
-    for (int kills = 0; kills < most && state_of(id) != "done"; ++kills) {
-      // A random instant: nothing is waited for.
-      std::this_thread::sleep_for(std::chrono::milliseconds(random() % 30));
-      const std::string victim = "pc" + std::to_string(random() % 3);
-      kill_worker(victim);
-      start_worker(victim);
-    }
-  }
-};
+class LostWorkers : public EachScene {};
 
 TEST_P(LostWorkers, KilledAtRandomInstantsChangeNoByte) {
   const std::string expected = rendered_here(picture());
   start_master({"--threads", "0"});
-  for (int i = 0; i < 3; ++i) start_worker("pc" + std::to_string(i));
+  start_workers_to_kill();
   std::uint64_t given_back = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
     const std::string id = submit(picture());
-    disturb(id, random);
+    kill_workers(id, random);
     wait_for_state(id, "done");
     EXPECT_TRUE(fetched(id) == expected);
     given_back += job(id).at("tiles_given_back").get<std::uint64_t>();

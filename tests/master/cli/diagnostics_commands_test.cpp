@@ -34,14 +34,29 @@ TEST(Stats, CountWhatTheRenderCounts) {
   for (const json& leaf : stats["hits"]) hits += leaf["hits"].get<std::uint64_t>();
   EXPECT_EQ(hits, stats["counters"]["primary_hits"].get<std::uint64_t>() +
                       stats["counters"]["secondary_hits"].get<std::uint64_t>());
+  EXPECT_EQ(stats["samples_per_pixel"], 4);
+  EXPECT_EQ(stats["counters"]["lost"], 0);
+  EXPECT_EQ(stats["tests"]["shadow"]["rays"], stats["counters"]["shadow"]);
+  EXPECT_GT(stats["tests"]["nearest"]["leaves_per_ray"], 1);
   for (const char* phase : {"script", "build", "render"}) EXPECT_GE(stats["seconds"][phase], 0) << phase;
 }
 
 TEST(Stats, ArePrintedAsTables) {
   const ProgramResult result = small("stats");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  for (const char* word : {"primary", "12288", "misses", "plane #", "PHASE", "64x48"})
+  for (const char* word :
+       {"primary", "12288", "misses", "lost", "plane #", "SOLIDS TESTED", "PHASE", "64x48"})
     EXPECT_NE(result.out.find(word), std::string::npos) << word;
+}
+
+TEST(Stats, OfAnAdaptiveSamplerTellTheSamplesThatWereTaken) {
+  const json stats = json::parse(run_program({"rayfarm", "stats", scene, "--size", "64x48", "--spp", "64",
+                                              "--sampler", "adapt1", "--json"})
+                                     .out);
+  const double taken = stats["samples_per_pixel"];
+  EXPECT_GT(taken, 4);
+  EXPECT_LT(taken, 64);
+  EXPECT_EQ(taken * 64 * 48, stats["counters"]["primary"]);
 }
 
 TEST(Trace, TheSamplesMeanIsThePixelOfTheRenderedFile) {

@@ -39,7 +39,7 @@ TEST(PictureOptions, ASizeIsTwoNumbersWithAnX) {
 
 TEST(PictureOptions, WhatCannotBeRenderedIsNamed) {
   PictureOptions typed;
-  typed.sampler = "adapt1";
+  typed.sampler = "adapt2";
   EXPECT_THROW(settings_of(typed, {}), SettingsError);
   typed.sampler = "regular", typed.spp = 10;
   EXPECT_THROW(settings_of(typed, {}), SettingsError);

@@ -74,7 +74,7 @@ TEST(Render, BadScenesAndSettingsAreNamedAndOverwriteNothing) {
   expect_refused(good, {"--size", "0x0"}, "--size");
   expect_refused(good, {"--size", "1000000x1000000"}, "--size");
   expect_refused(good, {"--spp", "10", "--sampler", "regular"}, "9 and 16");
-  expect_refused(good, {"--sampler", "adapt1"}, "--sampler");
+  expect_refused(good, {"--sampler", "adapt2"}, "--sampler");
   expect_refused(good, {"-p", "nonsense"}, "key=value");
   expect_refused(good, {"-p", "nonsense=7"}, "nonsense");
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "common/render/render.h"
@@ -23,7 +24,8 @@ const auto unheard = [](std::uint32_t, std::uint32_t) {};
 TEST(Statistics, AreWhatTheRenderCountsForAnyNumberOfThreads) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const World world(random_scene(seed));
-    const RenderSettings s = small_settings();
+    RenderSettings s = small_settings();
+    if (seed == 5) s.sampler = SamplerKind::adapt1, s.spp = 16;
     RayCounters rendered;
     for (std::uint32_t tile = 0; tile < tile_count({s.width, s.height}); ++tile) {
       const auto images = render_tile(world, s, tile, all_passes, never);
@@ -41,6 +43,24 @@ TEST(Statistics, EachHitIsASolids) {
     EXPECT_EQ(std::accumulate(s->hits.begin(), s->hits.end(), std::uint64_t{0}),
               s->rays.primary_hits + s->rays.secondary_hits);
   }
+}
+
+TEST(Statistics, EachRayToALonelySphereTestsItsBoxAndWhatIsInTheBox) {
+  Scene scene;
+  scene.nodes = {{Sphere{}, {}, {}, {}, {}, ""}};
+  scene.camera = PerspectiveCamera{{0, 0, -5}, {0, 0, 1}, {0, 1, 0}, 60};
+  scene.lights = {PointLight{{0, 9, -9}, {1, 1, 1}}};
+  const auto s = statistics_of(World(scene), small_settings(), 2, never, unheard);
+  const RayCounters& rays = s->rays;
+  EXPECT_EQ(s->nearest_tests.boxes, rays.primary + rays.reflected + rays.refracted);
+  EXPECT_LT(s->nearest_tests.leaves, s->nearest_tests.boxes);
+  EXPECT_EQ(s->nearest_tests.crossings, 2 * rays.primary_hits);  // a reflected ray has left for good
+  EXPECT_EQ(s->shadow_tests.boxes, rays.shadow);
+  EXPECT_EQ(s->shadow_tests.crossings, 0u);
+  EXPECT_GT(rays.shadow, 0u);
+  const nlohmann::json json = tests_json(*s);
+  EXPECT_EQ(json["nearest"]["boxes_per_ray"], 1);
+  EXPECT_EQ(json["shadow"]["rays"], rays.shadow);
 }
 
 TEST(Statistics, BadSamplesAreCounted) {

@@ -29,6 +29,27 @@ std::string complaint_about(const char* text) {
   return "";
 }
 
+TEST(SettingsJson, KnowsEverySampler) {
+  for (int kind = 0; kind <= static_cast<int>(last_sampler); ++kind) {
+    RenderSettings settings;
+    settings.sampler = static_cast<SamplerKind>(kind);
+    EXPECT_EQ(settings_from_json(to_json(settings)), settings) << name_of(settings.sampler);
+    EXPECT_NE(complaint_about(R"({"sampler": "best"})").find(name_of(settings.sampler)), std::string::npos);
+  }
+}
+
+TEST(CountersJson, TellsWhatWasCountedAndWhatFollowsFromIt) {
+  RayCounters c;
+  c.primary = 100, c.reflected = 20, c.refracted = 3, c.shadow = 50, c.primary_hits = 60,
+  c.secondary_hits = 7;
+  c.bad_samples = 2, c.lost = 1;
+  const json counters = to_json(c);
+  EXPECT_EQ(counters["rays"], 173);
+  EXPECT_EQ(counters["misses"], 56);
+  EXPECT_EQ(counters["lost"], 1);
+  EXPECT_EQ(counters["bad_samples"], 2);
+}
+
 TEST(SettingsJson, NamesWhatItRefuses) {
   EXPECT_NE(complaint_about(R"({"widht": 3})").find("widht"), std::string::npos);
   EXPECT_NE(complaint_about(R"({"width": "3"})").find("width"), std::string::npos);
