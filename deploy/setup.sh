@@ -30,7 +30,8 @@ install_npm_packages() {
   for folder in "${npm_folders[@]}"; do
     [ "$folder/node_modules/.package-lock.json" -nt "$folder/package-lock.json" ] && continue
     echo "setup: installing the npm packages of $(basename -- "$(dirname -- "$folder")")/$(basename -- "$folder")" >&2
-    (cd -- "$folder" && npm ci --no-fund --no-audit --loglevel=error >&2)
+    # Not `npm ci`: npm 11 refuses a lock file without download addresses. The versions are those of the lock file.
+    (cd -- "$folder" && npm install --no-save --no-fund --no-audit --loglevel=error >&2)
     touch -- "$folder/node_modules/.package-lock.json"
   done
 }
