@@ -61,29 +61,6 @@ describe("Tab", () => {
 describe("the keyboard alone", () => {
   beforeEach(() => open());
 
-  it("steers the queue: jobs are chosen, raised, cancelled, resumed", async () => {
-    for (const name of ["held one", "held two"]) {
-      await fillForm(page, { name, hold: true });
-      await page.keyboard.press("Enter");
-      await details(page).getByRole("heading", { name }).waitFor();
-    }
-    await page.keyboard.press("q");
-    await page.keyboard.press("Home");
-    await details(page).getByRole("heading", { name: "held one" }).waitFor();
-    await page.keyboard.press("ArrowDown");
-    await details(page).getByRole("heading", { name: "held two" }).waitFor();
-    await page.keyboard.press("+"); // goes before the other
-    await expect.poll(() => listed(page).first().innerText()).toContain("held two");
-    await page.keyboard.press("Delete");
-    await page.keyboard.press("Tab");
-    await page.keyboard.press("Enter");
-    await isNow(page, "cancelled");
-    await page.keyboard.press("Home");
-    await details(page).getByRole("heading", { name: "held one" }).waitFor();
-    await page.keyboard.press("p");
-    await isNow(page, "done");
-  });
-
   it("goes through the maps with brackets", async () => {
     await showLayer(page, job);
     await page.keyboard.press("]");
