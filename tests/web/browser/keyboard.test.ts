@@ -3,7 +3,7 @@ import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { closeBrowser, openApp, screenshot, type App } from "../support/app";
 import { Farm } from "../support/farm";
-import { details, fillForm, isNow, listed } from "../support/jobs";
+import { fillForm } from "../support/jobs";
 import { controls, outside, tabbed } from "../support/layout";
 import { allShown, showLayer } from "../support/picture";
 
