@@ -1,0 +1,15 @@
+#include "tests/stability/cases.h"
+
+namespace rayfarm::stability {
+
+std::vector<Case> all_cases() {
+  std::vector<Case> all;
+  for (const auto& group : {
+           shared_face_cases(),
+           twin_cases(),
+       })
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+}  // namespace rayfarm::stability

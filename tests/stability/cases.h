@@ -1,0 +1,13 @@
+// The cases of the suite, by their numbers in the list S1 to S30 of the README's section on stability.
+#pragma once
+#include "tests/stability/suite.h"
+
+namespace rayfarm::stability {
+
+std::vector<Case> shared_face_cases();  // S12
+std::vector<Case> twin_cases();         // S13
+
+/// All of them, in the order of their numbers.
+std::vector<Case> all_cases();
+
+}  // namespace rayfarm::stability
