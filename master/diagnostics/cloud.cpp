@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include "common/render/sampler.h"
 
@@ -122,6 +123,7 @@ std::optional<std::vector<std::uint8_t>> small_cloud(const World& world, RenderS
   constexpr std::uint64_t rays_per_point = 16;  // in a picture of little but background, or with large voxels
   settings.shadows = false;                     // they decide no ray that goes on
   Tracer<HitList> tracer(world, settings, HitList{{}, options.visible_only, {}});
+  tracer.stop_when(std::cref(stop));  // also in the middle of a ray's tree
   std::optional<OccupiedVoxels> voxels = voxels_of(options);
   RenderSettings spread = settings;
   spread.sampler = SamplerKind::sobol;
@@ -129,12 +131,12 @@ std::optional<std::vector<std::uint8_t>> small_cloud(const World& world, RenderS
   std::vector<PlyPoint> points;
   const std::uint64_t most_rays = most_points * rays_per_point;
   for (std::uint64_t ray = 0; ray < most_rays && points.size() < most_points; ++ray) {
-    if (ray % 64 == 0 && stop()) return std::nullopt;
     const auto number = static_cast<std::uint32_t>(ray);
     const Sample2D place = places.sample(number, 0);
     tracer.observer.points.clear();
     tracer.radiance(place.u * settings.width, place.v * settings.height,
                     [&](std::uint32_t light) { return places.sample(number, 1 + light); });
+    if (tracer.is_stopped()) return std::nullopt;
     if (voxels) thin(tracer.observer.points, *voxels);
     const std::size_t room = most_points - points.size();
     const auto& found = tracer.observer.points;

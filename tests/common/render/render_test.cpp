@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "common/render/probe.h"
+#include "tests/support/mirror_hall.h"
 #include "tests/support/random_scene.h"
 
 namespace rayfarm {
@@ -75,21 +76,11 @@ TEST(Render, AStopIsHeardInMidPixelAndDropsTheTile) {
 }
 
 TEST(Render, AStopIsHeardInMidSample) {
-  // A glass ball in a mirroring hall: one sample would trace 2^depth rays.
-  Scene scene;
-  Material glass;
-  glass.specular = 1, glass.transmission = 1;
-  scene.materials = {glass};
-  scene.nodes = {{Operation{CsgOp::unite, 2}, {}, 0u, {}, {}, {}},
-                 {Sphere{}, {}, {}, {}, {}, {}},
-                 {Operation{CsgOp::subtract, 2}, {}, {}, {}, {}, {}},
-                 {Sphere{}, scaling({20, 20, 20}), {}, {}, {}, {}},
-                 {Sphere{}, scaling({10, 10, 10}), {}, {}, {}, {}}};
-  scene.camera = PerspectiveCamera{{0, 0, -5}, {0, 0, 1}, {0, 1, 0}, 10};
   RenderSettings s = small_settings();
   s.spp = 1, s.max_depth = 90, s.min_importance = 0;
   int questions = 0;
-  EXPECT_EQ(render_tile(World(scene), s, 0, all_passes, [&] { return ++questions > 10; }), std::nullopt);
+  EXPECT_EQ(render_tile(World(mirror_hall()), s, 0, all_passes, [&] { return ++questions > 10; }),
+            std::nullopt);
   EXPECT_EQ(questions, 11);
 }
 

@@ -13,6 +13,7 @@
 #include "common/work/each_tile.h"
 #include "master/diagnostics/collecting_render.h"
 #include "master/files/image_file.h"
+#include "tests/support/mirror_hall.h"
 #include "tests/support/random_scene.h"
 #include "tests/support/scratch_folder.h"
 
@@ -237,6 +238,15 @@ TEST(SmallCloud, EndsWhereThereIsNothingToMeet) {
   const auto bytes = small_cloud(World(scene), small(), {}, 1000, never, [](double) {});
   ASSERT_TRUE(bytes);
   EXPECT_TRUE(points_of({bytes->begin(), bytes->end()}).empty());
+}
+
+TEST(SmallCloud, StopsInTheMiddleOfARaysTree) {
+  RenderSettings settings = small();
+  settings.max_depth = 90, settings.min_importance = 0;
+  int questions = 0;
+  EXPECT_FALSE(small_cloud(
+      World(mirror_hall()), settings, {}, 1000, [&] { return ++questions == 2; }, [](double) {}));
+  EXPECT_EQ(questions, 2);
 }
 
 }  // namespace
