@@ -67,9 +67,9 @@ void check_place(const std::filesystem::path& file) {
     throw FileError(file.string() + " is not a regular file; name another");
   if (error && status.type() == std::filesystem::file_type::none)
     throw FileError("cannot write " + file.string() + ": " + error.message());
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+  if (::euidaccess(folder.c_str(), W_OK | X_OK) != 0)
     throw FileError("no file can be made in the folder " + folder.string() + ": " + std::strerror(errno));
-  if (std::filesystem::exists(status) && ::access(file.c_str(), W_OK) != 0)
+  if (std::filesystem::exists(status) && ::euidaccess(file.c_str(), W_OK) != 0)
     throw FileError("cannot replace " + file.string() + ": " + std::strerror(errno));
 }
 
