@@ -19,7 +19,7 @@
 #include "master/http/api.h"
 #include "master/http/guard.h"
 #include "master/http/listen.h"
-#include "master/http/live_session.h"
+#include "master/http/live/session.h"
 #include "master/http/submission.h"
 
 namespace rayfarm {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/net/text.h"
-#include "master/http/live_json.h"
+#include "master/http/live/json.h"
 #include "master/http/route.h"
 #include "master/http/worker_list.h"
 

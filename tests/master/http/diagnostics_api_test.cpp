@@ -8,7 +8,7 @@
 #include "master/diagnostics/map_file.h"
 #include "master/diagnostics/map_picture.h"
 #include "master/http/api.h"
-#include "master/http/job_layer.h"
+#include "master/http/live/job_layer.h"
 #include "master/http/settings_json.h"
 #include "tests/support/random_scene.h"
 #include "tests/support/test_server.h"
@@ -35,7 +35,8 @@ class DiagnosticsApi : public testing::Test {
   explicit DiagnosticsApi(FarmLimits limits = {}) : farm(limits) {}
 
   ApiResponse get(const std::string& target) {
-    const Doors doors{.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes};
+    const Doors doors{
+        .farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes};
     return answer({"GET", "/api/v1/" + target, "", "", "", "", ""}, doors);
   }
   json get_json(const std::string& target) { return json::parse(get(target).body.text()); }

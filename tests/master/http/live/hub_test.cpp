@@ -1,11 +1,11 @@
-#include "master/http/live_hub.h"
+#include "master/http/live/hub.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "master/http/api_error.h"
-#include "master/http/live_json.h"
+#include "master/http/live/json.h"
 #include "tests/support/layer_view.h"
 
 namespace rayfarm {

@@ -1,13 +1,13 @@
-#include "master/http/live_reporter.h"
+#include "master/http/live/reporter.h"
 
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "master/http/api_error.h"
 #include "master/http/farm_json.h"
-#include "master/http/job_layer.h"
-#include "master/http/live_json.h"
-#include "master/http/picture_layer.h"
+#include "master/http/live/job_layer.h"
+#include "master/http/live/json.h"
+#include "master/http/live/picture_layer.h"
 #include "master/http/worker_list.h"
 
 namespace rayfarm {

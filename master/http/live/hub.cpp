@@ -1,8 +1,8 @@
-#include "master/http/live_hub.h"
+#include "master/http/live/hub.h"
 
 #include <algorithm>
 
-#include "master/http/live_json.h"
+#include "master/http/live/json.h"
 
 namespace rayfarm {
 

@@ -1,4 +1,4 @@
-#include "master/http/half.h"
+#include "master/http/live/half.h"
 
 #include <gtest/gtest.h>
 

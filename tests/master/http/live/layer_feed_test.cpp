@@ -1,4 +1,4 @@
-#include "master/http/layer_feed.h"
+#include "master/http/live/layer_feed.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "master/http/api_error.h"
-#include "master/http/half.h"
+#include "master/http/live/half.h"
 #include "tests/support/layer_view.h"
 
 namespace rayfarm {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common/net/messages.h"
-#include "master/http/tile_message.h"
+#include "master/http/live/tile_message.h"
 
 namespace rayfarm {
 

@@ -1,4 +1,4 @@
-#include "master/http/live_json.h"
+#include "master/http/live/json.h"
 
 #include <array>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,9 @@
-#include "master/http/tile_message.h"
+#include "master/http/live/tile_message.h"
 
 #include <bit>
 #include <cstring>
 
-#include "master/http/half.h"
+#include "master/http/live/half.h"
 
 namespace rayfarm {
 namespace {

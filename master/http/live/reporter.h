@@ -4,7 +4,7 @@
 #include <string>
 
 #include "master/http/doors.h"
-#include "master/http/live_hub.h"
+#include "master/http/live/hub.h"
 
 namespace rayfarm {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "master/http/live_hub.h"
+#include "master/http/live/hub.h"
 
 namespace rayfarm {
 

@@ -1,7 +1,7 @@
 // The live connection, /api/v1/live: a WebSocket on which viewers watch jobs, workers and pictures.
 //
 //   viewer -> master   text     which layers it watches: {"watch": [...]}; 4 KB at most
-//   master -> viewer   text     state, log, layer: live_json.h
+//   master -> viewer   text     state, log, layer: json.h
 //   master -> viewer   binary   a tile of a watched layer: tile_message.h
 // A viewer is sent the next message when the last one has gone out. One that takes nothing for 60 s, or whose
 // PC is silent, is left.
@@ -15,8 +15,8 @@
 #include <chrono>
 #include <set>
 
-#include "master/http/live_hub.h"
-#include "master/http/live_reporter.h"
+#include "master/http/live/hub.h"
+#include "master/http/live/reporter.h"
 
 namespace rayfarm {
 

@@ -1,4 +1,4 @@
-#include "master/http/job_layer.h"
+#include "master/http/live/job_layer.h"
 
 #include "master/diagnostics/delivery_map.h"
 #include "master/http/api_error.h"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "master/event_log.h"
-#include "master/http/layer_feed.h"
+#include "master/http/live/layer_feed.h"
 
 namespace rayfarm {
 

@@ -1,4 +1,4 @@
-#include "master/http/layer_feed.h"
+#include "master/http/live/layer_feed.h"
 
 #include <algorithm>
 

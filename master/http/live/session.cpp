@@ -1,4 +1,4 @@
-#include "master/http/live_session.h"
+#include "master/http/live/session.h"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "master/http/api_error.h"
-#include "master/http/live_json.h"
+#include "master/http/live/json.h"
 
 namespace rayfarm {
 namespace {

@@ -1,4 +1,4 @@
-#include "master/http/picture_layer.h"
+#include "master/http/live/picture_layer.h"
 
 #include <algorithm>
 #include <memory>
