@@ -79,7 +79,7 @@ std::vector<Tick> AxisMap::steps() const {
   std::vector<Tick> ticks;
   const double step = round_step((high_ - low_) / 6);
   for (double k = std::ceil(low_ / step); k * step <= high_; ++k)
-    ticks.push_back({k * step, number(k * step)});
+    ticks.push_back({k * step, number(k * step + 0.0)});  // -0 as 0
   return ticks;
 }
 

@@ -71,10 +71,8 @@ std::string rate_text(const StabilityRow& row) {
 std::vector<Chart> stability_charts(const std::vector<StabilityRow>& rows) {
   std::vector<Chart> charts;
   for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
-    Chart chart{rows[first].name + ": " + rows[first].title,
-                {rows[first].driver_name, {}},
-                {"failures a ray", {}},
-                {}};
+    Chart chart{
+        rows[first].name + ": " + rows[first].title, {rows[first].driver_name}, {"failures a ray"}, {}};
     std::vector<double> drivers;
     for (; last < rows.size() && rows[last].name == rows[first].name; ++last) {
       const StabilityRow& row = rows[last];

@@ -7,6 +7,9 @@ std::vector<Case> all_cases() {
   for (const auto& group : {
            shared_face_cases(),
            twin_cases(),
+           stacked_slab_cases(),
+           menger_cases(),
+           random_tree_cases(),
        })
     all.insert(all.end(), group.begin(), group.end());
   return all;

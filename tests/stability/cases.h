@@ -4,8 +4,11 @@
 
 namespace rayfarm::stability {
 
-std::vector<Case> shared_face_cases();  // S12
-std::vector<Case> twin_cases();         // S13
+std::vector<Case> shared_face_cases();   // S12
+std::vector<Case> twin_cases();          // S13
+std::vector<Case> stacked_slab_cases();  // S14
+std::vector<Case> menger_cases();        // S16
+std::vector<Case> random_tree_cases();   // S17
 
 /// All of them, in the order of their numbers.
 std::vector<Case> all_cases();
