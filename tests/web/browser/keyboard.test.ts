@@ -3,7 +3,7 @@ import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { closeBrowser, openApp, screenshot, type App } from "../support/app";
 import { Farm } from "../support/farm";
-import { fillForm } from "../support/jobs";
+import { details, fillForm, isNow, listed } from "../support/jobs";
 import { controls, outside, tabbed } from "../support/layout";
 import { allShown, showLayer } from "../support/picture";
 
@@ -61,12 +61,42 @@ describe("Tab", () => {
 describe("the keyboard alone", () => {
   beforeEach(() => open());
 
-  it("goes through the maps with brackets", async () => {
+  it("steers the queue: jobs are chosen, raised, cancelled, resumed", async () => {
+    const list = page.locator("#job-list:focus");
+    for (const name of ["held one", "held two"]) {
+      await fillForm(page, { name, hold: true });
+      await page.keyboard.press("Enter");
+      await details(page).getByRole("heading", { name }).waitFor();
+    }
+    await page.keyboard.press("q");
+    await list.waitFor();
+    await page.keyboard.press("Home");
+    await details(page).getByRole("heading", { name: "held one" }).waitFor();
+    await page.keyboard.press("ArrowDown");
+    await details(page).getByRole("heading", { name: "held two" }).waitFor();
+    await page.keyboard.press("+"); // goes before the other
+    await expect.poll(() => listed(page).first().innerText()).toContain("held two");
+    await page.keyboard.press("Delete");
+    await page.getByRole("button", { name: "Keep as it is" }).and(page.locator(":focus")).waitFor();
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Enter");
+    await isNow(page, "cancelled");
+    await list.waitFor(); // the dialog gave the focus back
+    await page.keyboard.press("Home");
+    await details(page).getByRole("heading", { name: "held one" }).waitFor();
+    await page.keyboard.press("p");
+    await isNow(page, "done");
+  });
+
+  it.each([
+    ["[", "]"],
+    ["ArrowLeft", "ArrowRight"],
+  ])("goes through the maps with %s and %s", async (previous, next) => {
     await showLayer(page, job);
-    await page.keyboard.press("]");
+    await page.keyboard.press(next);
     await expect.poll(() => page.url()).toContain("layer=depth");
     await allShown(page);
-    await page.keyboard.press("[");
+    await page.keyboard.press(previous);
     await expect.poll(() => page.url()).not.toContain("layer=");
   });
 

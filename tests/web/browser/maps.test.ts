@@ -118,6 +118,9 @@ describe("the cost map", () => {
       const [, number, unit] = /^([\d.]+) (µs|ms|s)$/.exec(await hover(page, { x, y }, size))!;
       expect(Number(number) * units[unit!]!).toBeCloseTo(rounded(rows[y]![x]!, 3), 12);
     }
+    const highest = page.getByLabel("Highest value µs");
+    expect(Number(await highest.inputValue())).toBeCloseTo(Math.max(...rows.flat()) * 1e6, 2);
+    expect(await highest.evaluate((field) => field.scrollWidth <= field.clientWidth)).toBe(true);
     await screenshot(page, "map-cost");
   });
 });

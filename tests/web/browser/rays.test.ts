@@ -79,6 +79,7 @@ async function painted(color: Color): Promise<number> {
   return found;
 }
 const red: Color = [0xff, 0x2d, 0x2d];
+const violet: Color = [0xb4, 0x67, 0xff];
 const yellow: Color = [0xff, 0xd2, 0x3f];
 
 describe("the rays of a clicked pixel", () => {
@@ -147,11 +148,41 @@ describe("the 3D view", () => {
     await expect.poll(() => record.getAttribute("data-record")).toBe(await tip.innerText());
   });
 
-  it("shows the point cloud when it is asked for", async () => {
+  it("shows the point cloud when it is asked for, in the surfaces' colours as a screen has them", async () => {
     await page.getByRole("button", { name: "Cloud" }).click();
     const view = page.locator(".rays-view");
     await expect.poll(async () => Number(await view.getAttribute("data-cloud"))).toBeGreaterThan(1000);
+    const gold: Color = [255, 203, 89]; // 1, 0.6, 0.1 as sRGB
+    await expect.poll(() => painted(gold)).toBeGreaterThan(500);
     await screenshot(page, "rays-cloud");
+  });
+
+  it("turns with the arrow keys, and the layer stays", async () => {
+    await probe(ball);
+    await page.locator(".rays").focus();
+    const before = (await page.locator(".rays-view canvas").screenshot()).toString("base64");
+    for (let step = 0; step < 3; ++step) await page.keyboard.press("ArrowRight");
+    await settled(ball);
+    expect((await page.locator(".rays-view canvas").screenshot()).toString("base64")).not.toBe(before);
+    expect(page.url()).not.toContain("layer=");
+  });
+
+  it("marks the samples that stand out, unless that is toggled off", async () => {
+    const many = await farm.render("sphere_plane", "--size", "80x60", "--spp", "16");
+    await showLayer(page, many);
+    const edge: Pixel = { x: 9, y: 20 }; // of the ball; one sample just misses it
+    await probe(edge);
+    expect(await painted(violet)).toBe(0);
+    await page.getByRole("combobox", { name: /^Sample/ }).selectOption("all");
+    await expect.poll(() => page.locator('.rays-tree [data-outlier="true"]').count()).toBe(1);
+    await settled(edge);
+    await expect.poll(() => painted(violet)).toBeGreaterThan(30);
+    await screenshot(page, "rays-outliers");
+    const saved = async () => (await downloaded(page, () => saveAs("SVG"))).bytes.toString();
+    expect(await saved()).toContain("#b467ff");
+    await page.getByRole("button", { name: "Outliers", exact: true }).click();
+    await expect.poll(() => painted(violet)).toBe(0);
+    expect(await saved()).not.toContain("#b467ff");
   });
 });
 

@@ -93,7 +93,32 @@ describe("a worker to be dialled", () => {
   });
 });
 
+describe("the chart", () => {
+  it("is as wide as its frame, from the beginning", async () => {
+    const width = (selector: string) => page.locator(selector).evaluate((each) => each.getBoundingClientRect().width);
+    await page.evaluate(() => {
+      new MutationObserver(() => {
+        const chart = document.querySelector<HTMLElement>(".farm-chart .u-wrap");
+        if (chart?.style.width) document.body.dataset.chartWidth ??= chart.style.width;
+      }).observe(document.body, { subtree: true, childList: true, attributeFilter: ["style"] });
+    });
+    await page.getByRole("link", { name: "Jobs" }).click();
+    await page.getByRole("link", { name: "Workers" }).click();
+    await page.locator(".farm-chart .uplot").waitFor();
+    const first = page.locator("body[data-chart-width]");
+    expect(parseFloat((await first.getAttribute("data-chart-width"))!)).toBe(await width(".farm-chart"));
+    expect(await width(".farm-chart .u-wrap")).toBe(await width(".farm-chart"));
+  });
+});
+
 describe("the log", () => {
+  it("stays at its end when the chart above it comes late", async () => {
+    const atEnd = () =>
+      log().evaluate((list) => list.scrollHeight - list.scrollTop - list.clientHeight < 8 && list.scrollTop > 0);
+    await page.setViewportSize({ width: 1366, height: 500 });
+    await expect.poll(atEnd).toBe(true);
+  });
+
   it("tells what happened, of all workers or of one", async () => {
     await page.getByLabel("Lines of which worker").selectOption("lab2");
     const lines = log().getByRole("listitem");

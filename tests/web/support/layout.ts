@@ -6,7 +6,7 @@ export const outside = (page: Page): Promise<string[]> =>
   page.evaluate(() => {
     const scrolls = (element: Element): boolean => {
       for (let at: Element | null = element; at && at !== document.body; at = at.parentElement)
-        if (/auto|scroll/.test(getComputedStyle(at).overflow) || at.matches(".uplot")) return true;
+        if (/auto|scroll/.test(getComputedStyle(at).overflow)) return true;
       return false;
     };
     const root = document.documentElement;

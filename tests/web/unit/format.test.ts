@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { ago, bytes, count, duration, many, percent, short } from "../../../master/web/src/app/format";
+import { ago, bytes, count, duration, many, percent, short, timeOfDay } from "../../../master/web/src/app/format";
 
 describe("numbers as people read them", () => {
   it.each([
@@ -25,6 +25,7 @@ describe("numbers as people read them", () => {
 
   it.each([
     [0, "0.0 s"],
+    [0.012, "< 0.1 s"],
     [0.42, "0.4 s"],
     [9.96, "10 s"],
     [59.4, "59 s"],
@@ -35,6 +36,12 @@ describe("numbers as people read them", () => {
     [86399, "23 h 59 min"],
     [273600, "3 d 4 h"],
   ])("duration(%d) is %s", (seconds, text) => expect(duration(seconds)).toBe(text));
+
+  it("timeOfDay has hours, minutes and seconds", () => {
+    const noon = new Date(2026, 0, 2, 12, 3, 4).getTime();
+    expect(timeOfDay(noon)).toBe("12:03:04");
+    expect(timeOfDay(noon - 12 * 3600 * 1000)).toBe("00:03:04");
+  });
 
   it.each([
     [0.5, "just now"],

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { csvOf, numberText } from "../../../master/web/src/picture/csv";
 import { comparable, differenceOf, errorsOf } from "../../../master/web/src/picture/difference";
-import { fixed, plain, timeText } from "../../../master/web/src/picture/format";
+import { fieldText, fieldUnit, fixed, plain, timeText } from "../../../master/web/src/picture/format";
 import { LayerData, whole } from "../../../master/web/src/picture/layer_data";
 import { areaBetween, areaIn } from "../../../master/web/src/picture/selection";
 import { figuresOf, histogramOf, percentilesOf } from "../../../master/web/src/picture/statistics";
@@ -161,6 +161,17 @@ describe("numbers for people", () => {
     ]);
     expect([NaN, Infinity, -Infinity].map((value) => plain(value))).toEqual(["NaN", "∞", "−∞"]);
     expect(fixed(-1.25, 1)).toBe("−1.3");
+  });
+  it("fit into a field, and read back to five digits", () => {
+    const values = [0, 3.0749, 1087700.4, 1.6e-6, -0.00012345678, 1e-12, 123456789];
+    for (const value of values) {
+      expect(Number(fieldText(value))).toBe(Number(value.toPrecision(5)));
+      expect(fieldText(value).length).toBeLessThan(12);
+    }
+  });
+  it("are typed in a unit of their size when they are times", () => {
+    expect([2e-6, 0.0125, 3].map((seconds) => fieldUnit("seconds", seconds).name)).toEqual(["µs", "ms", "s"]);
+    expect(fieldUnit("rays", 1e-6)).toEqual({ name: "", size: 1 });
   });
   it("are times also when these are short", () => {
     expect([0, 2.5e-6, 0.0125, 3].map(timeText)).toEqual(["0 s", "2.5 µs", "12.5 ms", "3.0 s"]);

@@ -3,7 +3,7 @@ import { svgOf } from "../../../master/web/src/rays/drawing";
 import { framed, type Pose } from "../../../master/web/src/rays/pose";
 import type { SceneView } from "../../../master/web/src/rays/scene";
 import { cutBox, segmentsOf } from "../../../master/web/src/rays/segments";
-import { penOf } from "../../../master/web/src/rays/strokes";
+import { outlierColor, penOf } from "../../../master/web/src/rays/strokes";
 import { entriesOf } from "../../../master/web/src/rays/trace";
 import { glass } from "./rays_traces";
 
@@ -29,6 +29,7 @@ const drawing = {
   boxes: true,
   icons: true,
   segments,
+  outliers: [],
   importanceAs: "nothing",
   title: "a < b",
 };
@@ -44,6 +45,14 @@ describe("the drawing of the rays", () => {
     }
     expect(svg.split('stroke="rgb(0 255 0)"').length - 1).toBe(12);
     expect(svg).toContain('fill="rgb(255 0 0)"');
+  });
+
+  it("marks the outliers, below the rays", () => {
+    const outliers = segments.slice(0, 2);
+    const marked = svgOf({ ...drawing, outliers });
+    expect(svg).not.toContain(outlierColor);
+    expect(marked.split(`stroke="${outlierColor}"`).length - 1).toBe(2);
+    expect(marked.indexOf(outlierColor)).toBeLessThan(marked.indexOf(penOf(segments[0]!, "nothing").color));
   });
 
   it("names the camera and the lights that have a place", () => {

@@ -86,20 +86,12 @@ describe("outliers", () => {
     expect(deviation).toBeGreaterThan(0.01);
   });
 
-  it("need four samples and a difference that is not rounding", () => {
-    expect(
-      spreadOf([
-        [0, 0, 0],
-        [0, 0, 0],
-        [9, 9, 9],
-      ]).outliers,
-    ).toEqual([false, false, false]);
-    const alike = Array.from({ length: 16 }, (_, i): [number, number, number] => [
-      0.1,
-      0.1,
-      i === 7 ? 0.1 + 1e-16 : 0.1,
-    ]);
-    expect(spreadOf(alike).outliers).not.toContain(true);
+  it("are none among few samples, nor where the difference cannot be seen", () => {
+    const withOne = (count: number, odd: number) =>
+      Array.from({ length: count }, (_, i): [number, number, number] => (i === 1 ? [odd, odd, odd] : [0.1, 0.1, 0.1]));
+    expect(spreadOf(withOne(3, 9)).outliers).not.toContain(true);
+    expect(spreadOf(withOne(16, 0.1008)).outliers).not.toContain(true);
+    expect(spreadOf(withOne(16, 0.103)).outliers.indexOf(true)).toBe(1);
     expect(spreadOf([]).mean).toBe(0);
   });
 });

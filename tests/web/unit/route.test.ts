@@ -1,5 +1,14 @@
-import { describe, expect, it } from "vitest";
-import { hashOf, isStep, layerIn, parse, queryOf, type Route } from "../../../master/web/src/app/route";
+import { afterEach, describe, expect, it, vi } from "vitest";
+import {
+  hashOf,
+  isStep,
+  layerIn,
+  parse,
+  queryOf,
+  startRouting,
+  type Route,
+} from "../../../master/web/src/app/route";
+import { selectedId } from "../../../master/web/src/app/state";
 
 describe("an address", () => {
   it.each([
@@ -50,5 +59,48 @@ describe("the back button", () => {
   });
   it("does not undo the first job that is shown by itself", () => {
     expect(isStep(to("jobs"), to("jobs", 1))).toBe(false);
+  });
+});
+
+describe("the address", () => {
+  const start = (hash: string) => {
+    const at = { hash };
+    const put = (_state: null, _title: string, to: string): void => void (at.hash = to);
+    const browser = new EventTarget();
+    vi.stubGlobal("location", at);
+    vi.stubGlobal("history", { pushState: put, replaceState: put });
+    vi.stubGlobal("addEventListener", browser.addEventListener.bind(browser));
+    vi.stubGlobal("removeEventListener", browser.removeEventListener.bind(browser));
+    vi.useFakeTimers();
+    stop = startRouting();
+    return { at, hashchange: () => browser.dispatchEvent(new Event("hashchange")) };
+  };
+  let stop: () => void;
+  afterEach(() => {
+    stop();
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+
+  it("follows what is shown, once it comes to rest", () => {
+    const { at } = start("");
+    selectedId.value = 3;
+    vi.runAllTimers();
+    expect(at.hash).toBe("#/jobs/3");
+    selectedId.value = 4; // a step that the back button undoes
+    expect(at.hash).toBe("#/jobs/4");
+  });
+
+  // A link was set while the first jobs came in: the newest job was chosen then and overwrote the link unheard.
+  it("that a link has set is kept until it is heard of", () => {
+    const { at, hashchange } = start("#/jobs/2");
+    at.hash = "#/jobs/1";
+    selectedId.value = 5;
+    vi.runAllTimers();
+    expect(at.hash).toBe("#/jobs/1");
+    hashchange();
+    vi.runAllTimers();
+    expect(selectedId.value).toBe(1);
+    expect(at.hash).toBe("#/jobs/1");
   });
 });

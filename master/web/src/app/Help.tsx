@@ -1,5 +1,4 @@
 import { signal } from "@preact/signals";
-import { Fragment } from "preact";
 import { actions, type Action, type Group } from "./actions";
 import { Dialog } from "./Dialog";
 import { Icon } from "./Icon";
@@ -8,19 +7,34 @@ import "./help.css";
 export const helpShown = signal(false);
 
 const groups: Group[] = ["General", "Jobs", "Picture", "Layers", "Rays"];
-const places = { rays: "in the 3D view", jobs: "in the job list" };
+const places = { picture: "with the focus on it", rays: "in the 3D view", jobs: "in the job list" };
 
-/// The actions on keys by group; those that count only in a place are apart.
-function sectionsOf(all: readonly Action[]): { title: string; listed: Action[] }[] {
-  const scopes: Action["scope"][] = [undefined, "jobs", "rays"];
+interface Line {
+  keys: string[];
+  title: string;
+}
+
+/// One for each action on keys, or for each family of them.
+function linesOf(listed: readonly Action[]): Line[] {
+  const lines = new Map<string, Line>();
+  for (const { id, title, family, keys } of listed) {
+    const before = lines.get(family ?? id)?.keys ?? [];
+    lines.set(family ?? id, { keys: [...before, ...keys], title: family ?? title });
+  }
+  return [...lines.values()].filter(({ keys }) => keys.length > 0);
+}
+
+/// Lines by group; those that count only in a place are apart.
+function sectionsOf(all: readonly Action[]): { title: string; lines: Line[] }[] {
+  const scopes: Action["scope"][] = [undefined, "picture", "jobs", "rays"];
   return groups
     .flatMap((group) =>
       scopes.map((scope) => ({
         title: scope ? `${group}, ${places[scope]}` : group,
-        listed: all.filter((one) => one.keys.length > 0 && one.group === group && one.scope === scope),
+        lines: linesOf(all.filter((one) => one.group === group && one.scope === scope)),
       })),
     )
-    .filter(({ listed }) => listed.length > 0);
+    .filter(({ lines }) => lines.length > 0);
 }
 
 /// All that keys do.
@@ -37,8 +51,8 @@ export function Help() {
           </button>
         </header>
         <div class="groups">
-          {sectionsOf(actions.value).map(({ title, listed }) => (
-            <KeyGroup key={title} title={title} listed={listed} />
+          {sectionsOf(actions.value).map(({ title, lines }) => (
+            <KeyGroup key={title} title={title} lines={lines} />
           ))}
         </div>
       </div>
@@ -46,20 +60,20 @@ export function Help() {
   );
 }
 
-function KeyGroup({ title, listed }: { title: string; listed: Action[] }) {
+function KeyGroup({ title, lines }: { title: string; lines: Line[] }) {
   return (
     <section>
       <h3>{title}</h3>
       <dl>
-        {listed.map((action) => (
-          <Fragment key={action.id}>
+        {lines.map((line) => (
+          <div key={line.title}>
             <dt>
-              {action.keys.map((key) => (
+              {line.keys.map((key) => (
                 <Keys key={key} keys={key} />
               ))}
             </dt>
-            <dd>{action.title}</dd>
-          </Fragment>
+            <dd>{line.title}</dd>
+          </div>
         ))}
       </dl>
     </section>

@@ -6,10 +6,11 @@ export type Group = "General" | "Jobs" | "Picture" | "Layers" | "Rays";
 export interface Action {
   id: string;
   title: string; // as the palette shows it: "Zoom in"
+  family?: string; // the help says this once for all that share it
   group: Group;
   keys: string[]; // "Shift+E", "Ctrl+K", "ArrowLeft", "?"; the first is shown
   /// The keys count only while the focus is inside [data-scope=...], and go before those of the others.
-  scope?: "rays" | "jobs";
+  scope?: "picture" | "rays" | "jobs";
   enabled?: () => boolean;
   run: () => void;
 }

@@ -22,8 +22,9 @@ export function short(value: number): string {
 
 const two = (value: number): string => String(value).padStart(2, "0");
 
-/// Two units at most: 0.4 s, 42 s, 3 min 05 s, 2 h 40 min, 3 d 4 h.
+/// Two units at most: < 0.1 s, 0.4 s, 42 s, 3 min 05 s, 2 h 40 min, 3 d 4 h.
 export function duration(seconds: number): string {
+  if (seconds > 0 && seconds < 0.05) return "< 0.1 s";
   if (seconds < 9.95) return `${seconds.toFixed(1)} s`;
   const s = Math.round(seconds);
   if (s < 60) return `${s} s`;
@@ -33,6 +34,9 @@ export function duration(seconds: number): string {
   const hours = Math.floor(minutes / 60);
   return `${Math.floor(hours / 24)} d ${hours % 24} h`;
 }
+
+/// 14:03:20
+export const timeOfDay = (milliseconds: number): string => new Date(milliseconds).toLocaleTimeString("en-GB");
 
 /// One unit: just now, 12 s ago, 3 min ago, 5 h ago, 2 d ago.
 export function ago(seconds: number): string {

@@ -93,23 +93,38 @@ function take(route: Route): void {
   viewQuery.value = others;
 }
 
-export function startRouting(): void {
-  const follow = () => batch(() => take(parse(location.hash)));
-  follow();
-  addEventListener("hashchange", follow);
+const restingTime = 200; // milliseconds
+
+/// Until the result is called.
+export function startRouting(): () => void {
+  let known = ""; // the address as last read or written here
   let timer: ReturnType<typeof setTimeout> | undefined;
-  effect(() => {
+  const write = () => {
     const route = routeTo(page.value);
     const hash = hashOf(route);
-    const before = location.hash;
     clearTimeout(timer);
-    if (hash === before) return;
-    if (isStep(parse(before), route)) history.pushState(null, "", hash);
-    // Browsers limit how often; while the picture is moved only where it comes to rest counts. Where a link has led
-    // meanwhile is heard of later than it is in the address: it stays there.
-    else
-      timer = setTimeout(() => {
-        if (location.hash === before) history.replaceState(null, "", hash);
-      }, 200);
-  });
+    // Where a link has led is heard of later than it is in the address: it stays there.
+    const put = (how: "pushState" | "replaceState") => {
+      if (location.hash !== known) return;
+      history[how](null, "", hash);
+      known = location.hash;
+    };
+    if (hash === known) return;
+    if (isStep(parse(known), route)) put("pushState");
+    // Browsers limit how often; while the picture is moved only where it comes to rest counts.
+    else timer = setTimeout(() => put("replaceState"), restingTime);
+  };
+  const follow = () => {
+    known = location.hash;
+    batch(() => take(parse(known)));
+    write();
+  };
+  follow();
+  addEventListener("hashchange", follow);
+  const end = effect(write);
+  return () => {
+    end();
+    clearTimeout(timer);
+    removeEventListener("hashchange", follow);
+  };
 }

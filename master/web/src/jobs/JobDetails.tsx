@@ -84,7 +84,9 @@ function Progress({ job }: { job: Job }) {
       </Row>
       {job.tiles_given_back > 0 && (
         <Row name="Given back">
-          <span class="warn">{many(job.tiles_given_back, "tile")}, by workers that left or failed</span>
+          <span title="Tiles that were not finished where they were begun: the job was paused, or a worker was drained, left, or failed">
+            {many(job.tiles_given_back, "tile")}, rendered anew
+          </span>
         </Row>
       )}
       {job.output && <Row name="Output">{job.output}</Row>}

@@ -42,10 +42,12 @@ export function cancel(job: Job): void {
   });
 }
 
-/// Moves the focus into the job list.
+/// Moves the focus into the job list, which may have to appear first.
 function focusList(): void {
   panelsShown.value = columnShown.value = true;
-  requestAnimationFrame(() => document.getElementById("job-list")?.focus());
+  const list = () => document.getElementById("job-list");
+  if (list()) list()!.focus();
+  else requestAnimationFrame(() => list()?.focus());
 }
 
 const onJob = (run: (job: Job) => void) => () => {

@@ -1,7 +1,8 @@
 import { signal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { ApiError, getJson } from "../app/api";
 import { layer, selectedJob } from "../app/state";
+import type { Job } from "../app/types";
 import {
   comparison,
   compares,
@@ -159,16 +160,24 @@ function Ways() {
   );
 }
 
-/// The result against the reference.
+/// The result against the reference; comes into sight when a comparison begins.
 export function ComparePanel() {
+  const panel = useRef<HTMLDivElement>(null);
   const [job, other] = [selectedJob.value, reference.value];
+  useEffect(() => {
+    if (other) panel.current?.scrollIntoView({ block: "nearest" });
+  }, [other?.id, comparison.value, answer.value !== null]);
   if (!job) return null;
-  if (!compares.value || !other)
-    return (
-      <Section title="Compare">
-        <p class="quiet hint">Choose a reference in the history (ref, or Shift+digit).</p>
-      </Section>
-    );
+  return <div ref={panel}>{compares.value && other ? <Comparing job={job} other={other} /> : <NotYet />}</div>;
+}
+
+const NotYet = () => (
+  <Section title="Compare">
+    <p class="quiet hint">Choose a reference in the history (ref, or Shift+digit).</p>
+  </Section>
+);
+
+function Comparing({ job, other }: { job: Job; other: Job }) {
   return (
     <Section title="Compare" aside={`#${job.id} with #${other.id}`}>
       <Ways />

@@ -2,7 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { currentEntry } from "./compare";
 import { adjustMap, resetMap, shownMap, shownOf } from "./display";
 import { rangeOf } from "./figures";
-import { plain, timeText } from "./format";
+import { fieldText, fieldUnit, plain, timeText } from "./format";
 import { LabelLegend } from "./LabelLegend";
 import { paletteOf } from "./look";
 import { MapChoices } from "./MapChoices";
@@ -64,7 +64,7 @@ function NormalBall() {
         <br />
         green: y, upwards
         <br />
-        blue: z, towards the usual camera
+        blue: −z, to the usual camera
       </p>
     </div>
   );
@@ -73,11 +73,11 @@ function NormalBall() {
 const modes: Record<RangeMode, string> = { auto: "all values", percentile: "1 % to 99 %", fixed: "fixed" };
 
 function RangeChoice({ map, range, shown }: { map: MapEntry; range: Range; shown: Shown }) {
+  const unit = fieldUnit(map.unit, range.high);
   const set = (end: "low" | "high", text: string): void => {
     if (text !== "" && Number.isFinite(Number(text)))
-      adjustMap(map, { ...range, mode: "fixed", [end]: Number(text) });
+      adjustMap(map, { ...range, mode: "fixed", [end]: Number(text) * unit.size });
   };
-  const shortened = (value: number): number => Number(value.toPrecision(5));
   return (
     <>
       <div class="line">
@@ -98,18 +98,19 @@ function RangeChoice({ map, range, shown }: { map: MapEntry; range: Range; shown
         <input
           type="number"
           step="any"
-          aria-label="Lowest value"
-          value={shortened(range.low)}
+          aria-label={`Lowest value ${unit.name}`.trim()}
+          value={fieldText(range.low / unit.size)}
           onChange={(event) => set("low", event.currentTarget.value)}
         />
         <span class="quiet">to</span>
         <input
           type="number"
           step="any"
-          aria-label="Highest value"
-          value={shortened(range.high)}
+          aria-label={`Highest value ${unit.name}`.trim()}
+          value={fieldText(range.high / unit.size)}
           onChange={(event) => set("high", event.currentTarget.value)}
         />
+        {unit.name && <span class="quiet">{unit.name}</span>}
       </div>
     </>
   );
@@ -151,7 +152,7 @@ export function LegendPanel() {
   const palette = paletteOf(map, shown);
   const range = rangeOf(entry, map, shown);
   return (
-    <Section title="Legend" aside={map.unit}>
+    <Section title="Legend" aside={map.channels === 1 && map.unit}>
       <p class="quiet hint">{map.help}</p>
       <MapChoices map={map} />
       {map.scale === "normal" && <NormalBall />}

@@ -71,8 +71,8 @@ export const displayActions: Action[] = [
 
 const onLayers = (action: Action): Action => ({ ...action, group: "Layers" });
 export const layerActions: Action[] = [
-  act("layer-next", "Next layer", ["]"], () => stepLayer(1)),
-  act("layer-previous", "Previous layer", ["["], () => stepLayer(-1)),
+  act("layer-next", "Next layer", ["]", "ArrowRight"], () => stepLayer(1)),
+  act("layer-previous", "Previous layer", ["[", "ArrowLeft"], () => stepLayer(-1)),
   act("colors", "Next colours of the map", ["C"], nextColors, hasColors),
   act("log", "Logarithmic or linear colours of the map", ["Shift+C"], toggleLog, hasColors),
 ].map(onLayers);

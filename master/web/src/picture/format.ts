@@ -20,6 +20,20 @@ export function fixed(value: number, decimals: number): string {
   return minus(value.toFixed(decimals));
 }
 
+/// For a field that takes numbers: five digits, no longer than there is room for.
+export function fieldText(value: number): string {
+  const short = Number(value.toPrecision(5));
+  const size = Math.abs(short);
+  return short !== 0 && (size < 1e-3 || size >= 1e7) ? short.toExponential() : String(short);
+}
+
+/// What the values of a range are typed in: times in a unit of their size, others as they are.
+export function fieldUnit(unit: string, highest: number): { name: string; size: number } {
+  if (unit !== "seconds") return { name: "", size: 1 };
+  if (highest < 1e-3) return { name: "µs", size: 1e-6 };
+  return highest < 1 ? { name: "ms", size: 1e-3 } : { name: "s", size: 1 };
+}
+
 /// Also of very short times, as a ray takes.
 export function timeText(seconds: number): string {
   if (seconds === 0) return "0 s";

@@ -15,9 +15,10 @@ const slotTitle = (slot: number): string =>
 const historyActions: Action[] = [
   act("older", "Previous result of the scene", ["A"], () => step(1)),
   act("newer", "Next result of the scene", ["D"], () => step(-1)),
-  ...slots.map((slot) =>
-    act(`slot-${slot}`, slotTitle(slot), [String(slot)], () => choose(slot), hasSlot(slot)),
-  ),
+  ...slots.map((slot) => ({
+    ...act(`slot-${slot}`, slotTitle(slot), [String(slot)], () => choose(slot), hasSlot(slot)),
+    family: "Show one of the last results",
+  })),
 ];
 
 const compareActions: Action[] = [
@@ -25,15 +26,16 @@ const compareActions: Action[] = [
   act("wipe", "Compare with a wipe", ["W"], () => toggleComparison("wipe")),
   act("metric", "Difference to the reference, next metric", ["X"], nextMetric),
   act("no-reference", "Compare with nothing", ["Shift+X"], () => setReference(null)),
-  ...slots.map((slot) =>
-    act(
+  ...slots.map((slot) => ({
+    ...act(
       `reference-${slot}`,
       `Compare with result ${slot} of the history`,
       [`Shift+${slot}`],
       refer(slot),
       hasSlot(slot),
     ),
-  ),
+    family: "Compare with one of the last results",
+  })),
 ];
 
 /// While Shift alone is held the reference is shown.

@@ -17,7 +17,11 @@ import {
   zoomTo,
 } from "./view_state";
 
-const onCanvas = (): boolean => document.activeElement?.id === canvasId;
+/// The key counts while the picture itself has the focus.
+const withFocus = (id: string, title: string, key: string, run: () => void): Action => ({
+  ...act(id, title, [key], run, () => document.activeElement?.id === canvasId),
+  scope: "picture",
+});
 
 /// Where keys begin to move the cursor: the last probe, or the middle of the screen.
 function cursorStart(): Pixel | null {
@@ -51,9 +55,15 @@ const arrowActions = Object.entries(directions).flatMap(([name, [x, y]]): Action
     panBy({ x: -x * width * panShare, y: -y * height * panShare });
   };
   return [
-    act(`${id}-cursor`, `Cursor ${word}`, [`Arrow${name}`], () => moveCursor(x, y), onCanvas),
-    act(`${id}-far`, `Cursor 10 pixels ${word}`, [`Shift+Arrow${name}`], far, onCanvas),
-    act(`${id}-pan`, `Look further ${word}`, [`Alt+Arrow${name}`], pan),
+    {
+      ...withFocus(`${id}-cursor`, `Cursor ${word}`, `Arrow${name}`, () => moveCursor(x, y)),
+      family: "Move the cursor",
+    },
+    {
+      ...withFocus(`${id}-far`, `Cursor ${farther} pixels ${word}`, `Shift+Arrow${name}`, far),
+      family: `Move the cursor ${farther} pixels`,
+    },
+    { ...act(`${id}-pan`, `Look further ${word}`, [`Alt+Arrow${name}`], pan), family: "Look further" },
   ];
 });
 
@@ -79,6 +89,6 @@ export const viewActions: Action[] = [
   act("focus-picture", "Go to the picture, to probe with the arrow keys", ["I"], () =>
     document.getElementById(canvasId)?.focus(),
   ),
-  act("probe", "Probe the pixel under the cursor", ["Enter"], () => (probed.value = cursorStart()), onCanvas),
+  withFocus("probe", "Probe the pixel under the cursor", "Enter", () => (probed.value = cursorStart())),
   ...arrowActions,
 ];

@@ -2,10 +2,10 @@ import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { plain as short } from "../picture/format";
 import { cssOf } from "./color";
-import { outlierRule, spreadOf } from "./outliers";
+import { outlierRule } from "./outliers";
 import { answer } from "./probe";
 import { nameOf } from "./record";
-import { entries, entryOf, hover, hovered, select, selected } from "./selection";
+import { entries, entryOf, hover, hovered, select, selected, spread } from "./selection";
 import type { Entry, TracedSample } from "./trace";
 import { StrokeSample } from "./Toolbar";
 import { closedAbove, moveOf, rowsOf, type Toggled, type TreeRow } from "./tree_rows";
@@ -14,7 +14,6 @@ const rowHeight = 20;
 const toggled = signal<Toggled>(new Set());
 const samples = computed<readonly TracedSample[]>(() => answer.value?.trace.samples ?? []);
 const rows = computed(() => rowsOf(entries.value, samples.value.length, toggled.value));
-const spread = computed(() => spreadOf(samples.value.map((sample) => sample.color)));
 
 function flip(ids: readonly string[]): void {
   const next = new Set(toggled.value);

@@ -1,4 +1,5 @@
 import type { Signal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
 import { probed, selectedJob, tellError } from "../app/state";
 import { many } from "../app/format";
 import { alignWithPrimary, alignWithSelected, toggleKeepAligned } from "./align";
@@ -9,7 +10,8 @@ import { answer, asking, sampleChoice } from "./probe";
 import { savePng, saveSvg } from "./RayCanvas";
 import { rayCount, selected } from "./selection";
 import type { Stroke } from "./segments";
-import { styles } from "./strokes";
+import { outlierRule } from "./outliers";
+import { outlierColor, styles } from "./strokes";
 
 /// A piece of the line that stands for a kind of ray.
 export function StrokeSample({ stroke, missed = false }: { stroke: Stroke; missed?: boolean }) {
@@ -29,20 +31,30 @@ export function StrokeSample({ stroke, missed = false }: { stroke: Stroke; misse
   );
 }
 
+/// A camera ray in the glow of an outlier.
+function OutlierSample() {
+  return (
+    <svg class="stroke-sample" width="20" height="10" aria-hidden="true">
+      <line x1={1} y1={5} x2={19} y2={5} stroke={outlierColor} stroke-width={8} stroke-opacity="0.6" />
+      <line x1={1} y1={5} x2={19} y2={5} stroke={styles.camera.color} stroke-width={2.5} />
+    </svg>
+  );
+}
+
 function Toggle({
   of,
   name,
-  stroke,
+  sample,
   title,
 }: {
   of: Signal<boolean>;
   name: string;
-  stroke?: Stroke;
+  sample?: ComponentChildren;
   title: string;
 }) {
   return (
     <button class="chip" aria-pressed={of.value} title={title} onClick={() => (of.value = !of.value)}>
-      {stroke && <StrokeSample stroke={stroke} />}
+      {sample}
       {name}
     </button>
   );
@@ -157,13 +169,13 @@ export function Toolbar() {
       <View />
       <Exports />
       <div class="chips" role="group" aria-label="What is shown">
-        <Toggle of={shown.camera} name="Camera" stroke="camera" title="Camera rays" />
-        <Toggle of={shown.reflected} name="Reflected" stroke="reflected" title="Reflected rays" />
-        <Toggle of={shown.refracted} name="Refracted" stroke="refracted" title="Refracted rays" />
+        <Toggle of={shown.camera} name="Camera" sample={<StrokeSample stroke="camera" />} title="Camera rays" />
+        <Toggle of={shown.reflected} name="Reflected" sample={<StrokeSample stroke="reflected" />} title="Reflected rays" />
+        <Toggle of={shown.refracted} name="Refracted" sample={<StrokeSample stroke="refracted" />} title="Refracted rays" />
         <Toggle
           of={shown.shadow}
           name="Shadow"
-          stroke="shadow"
+          sample={<StrokeSample stroke="shadow" />}
           title="Rays to the lights; dark behind what blocks them"
         />
         <Toggle
@@ -172,6 +184,12 @@ export function Toolbar() {
           title="Rays that hit nothing; they are cut around the scene"
         />
         <Toggle of={shown.normals} name="Normals" title="Surface normals where rays hit" />
+        <Toggle
+          of={shown.outliers}
+          name="Outliers"
+          sample={<OutlierSample />}
+          title={`Among all samples of the pixel those that stand out: ${outlierRule}`}
+        />
         <i />
         <Toggle of={shown.boxes} name="Boxes" title="Bounding boxes in the solids' colours (B)" />
         <Toggle of={shown.preview} name="Solids" title="Each solid by itself, without the set operations" />

@@ -2,10 +2,11 @@
 import { register, type Action } from "../app/actions";
 import { raysShown } from "../app/state";
 import { alignWithPrimary, alignWithSelected, toggleKeepAligned } from "./align";
-import { reset, step, toggleOrthographic, zoom } from "./camera";
+import { reset, step, toggleOrthographic, turn, zoom } from "./camera";
 import { shown, toggle } from "./options";
 import { selected } from "./selection";
 
+const angle = 0.2; // radians
 const stride = 0.08; // of the view's height, or of the distance to what it turns around
 
 const show = (what: keyof typeof shown, title: string, keys: string[] = []): Action => ({
@@ -27,6 +28,7 @@ const inView = (id: string, title: string, key: string, run: () => void): Action
   run,
 });
 
+const turning = "Turn the 3D view";
 const rayActions: Action[] = [
   {
     id: "rays.align",
@@ -61,6 +63,7 @@ const rayActions: Action[] = [
   show("shadow", "Show shadow rays"),
   show("misses", "Show rays that miss"),
   show("normals", "Show normals"),
+  show("outliers", "Mark the samples that stand out"),
   show("icons", "Show the camera and the lights"),
   show("axes", "Show the axes"),
   inView("forward", "Move the 3D view forward", "W", () => step(0, 0, stride)),
@@ -69,6 +72,10 @@ const rayActions: Action[] = [
   inView("right", "Move the 3D view right", "D", () => step(stride, 0, 0)),
   inView("up", "Move the 3D view up", "E", () => step(0, stride, 0)),
   inView("down", "Move the 3D view down", "Q", () => step(0, -stride, 0)),
+  { ...inView("turn-left", "Turn the 3D view left", "ArrowLeft", () => turn(-angle, 0)), family: turning },
+  { ...inView("turn-right", "Turn the 3D view right", "ArrowRight", () => turn(angle, 0)), family: turning },
+  { ...inView("turn-up", "Turn the 3D view up", "ArrowUp", () => turn(0, -angle)), family: turning },
+  { ...inView("turn-down", "Turn the 3D view down", "ArrowDown", () => turn(0, angle)), family: turning },
   inView("nearer", "Zoom into the 3D view", "+", () => zoom(1.1)),
   inView("farther", "Zoom out of the 3D view", "-", () => zoom(1 / 1.1)),
   inView("reset", "See the whole scene in the 3D view", "R", reset),

@@ -1,6 +1,6 @@
 // Where the 3D view stands and where it is going.
 import { signal } from "@preact/signals";
-import { alongRay, alike, moved, overview, poseBetween, zoomed, type Pose } from "./pose";
+import { alongRay, alike, moved, orbited, overview, poseBetween, zoomed, type Pose } from "./pose";
 import type { Vec3 } from "../app/types";
 
 /// What an overview shows.
@@ -61,6 +61,7 @@ export const toggleOrthographic = (): void =>
   jumpBy((from) => ({ ...from, orthographic: !from.orthographic }));
 export const step = (right: number, up: number, forward: number): void =>
   goBy((from) => moved(from, right, up, forward));
+export const turn = (right: number, down: number): void => goBy((from) => orbited(from, right, down));
 export const zoom = (factor: number): void => goBy((from) => zoomed(from, factor));
 
 /// From the ray's origin along it; its end is in the middle, where turning goes around.

@@ -4,7 +4,7 @@ import type { Pose } from "./pose";
 import { projectorOf, type Point2, type Projector } from "./projection";
 import type { SceneView } from "./scene";
 import type { Segment } from "./segments";
-import { penOf, styles } from "./strokes";
+import { outlierColor, penOf, styles } from "./strokes";
 import { add, along, edgesOf } from "./vec";
 
 const escaped = (text: string): string =>
@@ -20,6 +20,7 @@ export interface Drawing {
   boxes: boolean;
   icons: boolean;
   segments: readonly Segment[];
+  outliers: readonly Segment[]; // those of them that are marked
   importanceAs: string;
   title: string;
 }
@@ -55,6 +56,10 @@ export function svgOf(drawing: Drawing): string {
       return seen ? [line(seen, `stroke="${cssOf(solid.color)}" stroke-opacity="0.7"`)] : [];
     });
   });
+  const marks = drawing.outliers.flatMap((segment) => {
+    const seen = projector.segment(segment.from, segment.to);
+    return seen ? [line(seen, `stroke="${outlierColor}" stroke-width="8" stroke-opacity="0.6"`)] : [];
+  });
   const rays = drawing.segments.flatMap((segment) => {
     const seen = projector.segment(segment.from, segment.to);
     if (!seen) return [];
@@ -73,6 +78,7 @@ export function svgOf(drawing: Drawing): string {
     `<rect width="${width}" height="${height}" fill="${cssOf(drawing.scene?.background ?? [1, 1, 1])}"/>`,
     `<g fill="none" stroke-linecap="round">`,
     ...boxes,
+    ...marks,
     ...rays,
     `</g>`,
     ...marksOf(drawing, projector),

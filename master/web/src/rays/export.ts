@@ -6,7 +6,7 @@ import { svgOf } from "./drawing";
 import { importanceAs, shown } from "./options";
 import { answer } from "./probe";
 import { scene } from "./scene";
-import { segmentsShown } from "./segments_shown";
+import { outlierSegments, segmentsShown } from "./segments_shown";
 
 /// Under the job's name and the pixel's place.
 export function save(blob: Blob, extension: "png" | "svg" | "json"): void {
@@ -31,6 +31,7 @@ export function currentSvg(width: number, height: number): Blob {
     boxes: shown.boxes.value,
     icons: shown.icons.value,
     segments: segmentsShown.value,
+    outliers: outlierSegments.value,
     importanceAs: importanceAs.value,
     title: asked ? `Rays of pixel ${asked.pixel.x}, ${asked.pixel.y} of job ${asked.job}` : "Rays",
   });

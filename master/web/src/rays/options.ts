@@ -11,6 +11,7 @@ export const shown = {
   shadow: remembered("shadow", true),
   misses: remembered("misses", true),
   normals: remembered("normals", false),
+  outliers: remembered("outliers", true),
   boxes: remembered("boxes", true),
   preview: remembered("preview", false),
   cloud: signal(false), // not remembered: it is fetched when it is asked for

@@ -7,12 +7,10 @@ import { answer } from "./probe";
 import { cutBox } from "./segments";
 import { type Box, boxAround, centreOf, diagonalOf, edgesOf, lengthOf, minus } from "./vec";
 
-export type SolidKind = "sphere" | "cube" | "plane" | "cylinder" | "torus";
-
 export interface SolidView {
   leaf: number;
   name: string;
-  kind: SolidKind;
+  kind: string; // "sphere", "cube", ...
   color: Vec3; // linear
   box: Box | null; // null: endless
   matrix: number[]; // 12 numbers: the rows of world_from_local

@@ -1,6 +1,7 @@
 // Which ray is chosen or pointed at, in the tree, the chart or the 3D view alike.
 import { computed, signal } from "@preact/signals";
 import type { Vec3 } from "../app/types";
+import { spreadOf } from "./outliers";
 import { answer } from "./probe";
 import { entriesOf, type Entry, type RayEntry, type TracedSample } from "./trace";
 
@@ -8,6 +9,9 @@ export const entries = computed<Entry[]>(() => (answer.value ? entriesOf(answer.
 const byId = computed(() => new Map(entries.value.map((entry) => [entry.id, entry])));
 export const entryOf = (id: string | null): Entry | null =>
   id === null ? null : (byId.value.get(id) ?? null);
+
+/// Of the samples' colours.
+export const spread = computed(() => spreadOf((answer.value?.trace.samples ?? []).map((sample) => sample.color)));
 
 /// Traced rays of all samples, without those to lights.
 export const rayCount = computed(() => entries.value.filter((entry) => entry.what === "ray").length);

@@ -17,6 +17,7 @@ export const styles: Record<Stroke, Style> = {
 };
 
 export const accent = "#2fb8ff"; // marks what is pointed at
+export const outlierColor = "#b467ff"; // marks the samples that stand out
 
 /// Importance in four steps, so that lines of a step are drawn together: 0 is the least.
 type Step = 0 | 1 | 2 | 3;

@@ -126,7 +126,7 @@ export function endWords(ray: TracedRay): string {
 export function fateWords(light: LightAtHit): string {
   switch (light.fate) {
     case "ambient":
-      return "ambient, from everywhere";
+      return "ambient";
     case "reached":
       return "reached";
     case "blocked":

@@ -2,7 +2,7 @@ import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { short } from "../app/format";
+import { short, timeOfDay } from "../app/format";
 import { theme } from "../app/theme";
 import { rates } from "./throughput";
 
@@ -29,13 +29,13 @@ function chartIn(element: HTMLElement): uPlot {
       height: element.clientHeight,
       legend: { show: false },
       cursor: { show: false },
-      padding: [8, 8, 0, 0],
+      padding: [8, 32, 0, 0],
       scales: {
         x: { range: (_, __, last) => [last - shown, last] },
         y: { range: (_, __, most) => [0, Math.max(most, 100) * 1.05] },
       },
       axes: [
-        { ...axis, size: 22, space: 80 },
+        { ...axis, size: 22, space: 80, values: (_, times) => times.map((seconds) => timeOfDay(1000 * seconds)) },
         { ...axis, size: 58, space: 28, values: (_, values) => values.map(short) },
       ],
       series: [

@@ -1,6 +1,7 @@
 import { computed, signal } from "@preact/signals";
-import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { timeOf } from "../app/clock";
+import { timeOfDay } from "../app/format";
 import { log, workers } from "../app/state";
 import type { LogLine } from "../app/types";
 
@@ -28,6 +29,11 @@ export function Log() {
   useLayoutEffect(() => {
     if (follows.value) toEnd();
   }, [lines.value]);
+  useEffect(() => {
+    const sized = new ResizeObserver(() => follows.peek() && toEnd());
+    sized.observe(list.current!);
+    return () => sized.disconnect();
+  }, []);
   return (
     <section class="log" aria-label="Log">
       <header>
@@ -76,7 +82,7 @@ function Line({ line }: { line: LogLine }) {
   return useMemo(
     () => (
       <li class={line.warning ? "warn" : undefined}>
-        <time>{new Date(timeOf(line)).toLocaleTimeString("en-GB")}</time>
+        <time>{timeOfDay(timeOf(line))}</time>
         <span class="quiet">{line.worker}</span>
         <span>
           {line.warning && <span class="out-of-sight">Warning: </span>}

@@ -111,8 +111,8 @@ function Rate({ name }: { name: string }) {
   const last = values[values.length - 1] ?? 0;
   return (
     <span class="rate">
-      {short(last)}
       <Sparkline values={values} label="in the last minute" />
+      {short(last)}
     </span>
   );
 }
@@ -134,7 +134,7 @@ function Steering({ worker }: { worker: Worker }) {
         <button
           onClick={() => ask(worker, verb)}
           aria-label={`${verb} ${name}`}
-          title={verb === "drain" ? "Finish what it has, take nothing new" : "Work again"}
+          title={verb === "drain" ? "It gets nothing more; what it holds goes to others at once" : "Work again"}
         >
           {verb === "drain" ? "Drain" : "Undrain"}
         </button>

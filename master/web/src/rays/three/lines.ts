@@ -67,10 +67,15 @@ export function raysOf(segments: readonly Segment[], importanceAs: string): THRE
   return group;
 }
 
-/// A wide glow behind lines that are pointed at or chosen; it is seen through everything.
-export function glowOf(lines: readonly Line[], width: number, opacity: number): THREE.Group {
+/// A wide glow behind lines that are marked; it is seen through everything.
+export function glowOf(
+  lines: readonly Line[],
+  width: number,
+  opacity: number,
+  color: string = accent,
+): THREE.Group {
   const group = new THREE.Group();
-  const pen: Pen = { color: accent, halo: accent, dash: null, width, opacity };
+  const pen: Pen = { color, halo: color, dash: null, width, opacity };
   if (lines.length > 0) group.add(drawn(geometryOf(lines), materialOf(pen, {}, { depthTest: false }), 12));
   return group;
 }

@@ -63,7 +63,7 @@ export function axes(length: number): THREE.Group {
   return group;
 }
 
-/// Round dots of so many pixels.
+/// Round dots of so many pixels; larger ones lie below smaller ones.
 export function dots(points: readonly Vec3[], pixels: number, color: string): THREE.Points {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(points.flat(), 3));
@@ -79,7 +79,7 @@ export function dots(points: readonly Vec3[], pixels: number, color: string): TH
     depthTest: false,
   });
   const drawn = new THREE.Points(geometry, material);
-  drawn.renderOrder = 15;
+  drawn.renderOrder = 15 + 1 / pixels;
   drawn.frustumCulled = false;
   return drawn;
 }

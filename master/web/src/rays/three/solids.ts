@@ -117,7 +117,14 @@ interface Instance {
   place: THREE.Matrix4;
 }
 
-function instanceOf(solid: SolidView, box: Box, detail: number): Instance {
+/// A kind that has no shape here is its bounding box.
+function boxInstance({ box }: SolidView): Instance | null {
+  if (!box) return null;
+  const place = new THREE.Matrix4().makeScale(...minus(box.max, box.min)).setPosition(...centreOf(box));
+  return { shape: "box", make: () => new THREE.BoxGeometry(), place };
+}
+
+function instanceOf(solid: SolidView, box: Box, detail: number): Instance | null {
   const world = matrixOf(solid.matrix);
   switch (solid.kind) {
     case "sphere":
@@ -150,6 +157,8 @@ function instanceOf(solid: SolidView, box: Box, detail: number): Instance {
         place: place.setPosition(...middle),
       };
     }
+    default:
+      return boxInstance(solid);
   }
 }
 
@@ -172,7 +181,9 @@ export function preview(solids: readonly SolidView[], box: Box): THREE.Group {
     { make: Instance["make"]; items: { place: THREE.Matrix4; solid: SolidView }[] }
   >();
   for (const solid of solids) {
-    const { shape, make, place } = instanceOf(solid, box, detailOf(solids.length));
+    const instance = instanceOf(solid, box, detailOf(solids.length));
+    if (!instance) continue;
+    const { shape, make, place } = instance;
     const kept = shapes.get(shape) ?? { make, items: [] };
     kept.items.push({ place, solid });
     shapes.set(shape, kept);

@@ -6,8 +6,9 @@ import { cloudState } from "../cloud";
 import { boxStyle, importanceAs, shown } from "../options";
 import { distanceOf } from "../pose";
 import { box, boxOf, everything, scene } from "../scene";
-import { allSegments, segmentsShown } from "../segments_shown";
+import { allSegments, outlierSegments, segmentsShown } from "../segments_shown";
 import { entries, hovered, selected, spanMark } from "../selection";
+import { outlierColor } from "../strokes";
 import { diagonalOf, edgesOf } from "../vec";
 import { fitDashes, glowOf, raysOf } from "./lines";
 import { axes, axesLength, cloudPoints, dots, fitSprites, icons, normals } from "./marks";
@@ -60,6 +61,11 @@ export function openView(canvas: HTMLCanvasElement, settled: (still: boolean) =>
           )
         : null,
     ),
+    inWorld(() => glowOf(outlierSegments.value, 8, 0.6, outlierColor)),
+    inWorld(() => {
+      const ends = outlierSegments.value.filter((segment) => !segment.missed).map((segment) => segment.to);
+      return ends.length > 0 ? dots(ends, 18, outlierColor) : null;
+    }),
     inWorld(() => (shown.normals.value ? normals(hitsShown(), 0.05 * diagonalOf(box.value)) : null)),
     inWorld(() =>
       glowOf(
