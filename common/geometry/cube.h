@@ -3,6 +3,7 @@
 #pragma once
 #include "common/geometry/crossing.h"
 #include "common/geometry/ray.h"
+#include "common/geometry/solid.h"
 #include "common/geometry/surface_point.h"
 
 namespace rayfarm {
@@ -32,10 +33,14 @@ Interval<T> slab_interval(const LocalRay<T>& r, int axis, T low, T high) {
 }
 
 template <class T>
-Interval<T> cube_interval(const LocalRay<T>& r) {
+Interval<T> interval_of(const Cube&, const LocalRay<T>& r) {
   Interval<T> inside;
   for (int axis = 0; axis < 3; ++axis) inside = intersection(inside, slab_interval(r, axis, T(0), T(1)));
   return inside;
+}
+
+inline Bounded<double> exit_from_surface(const Cube& cube, const LocalRay<double>& r) {
+  return interval_of(cube, r).leave;
 }
 
 /// The axis whose plane the ray passes where it enters (or leaves) the cube.
@@ -53,7 +58,7 @@ int cube_face_axis(const LocalRay<T>& r, bool entering) {
   return face;
 }
 
-inline SurfacePoint cube_surface(const LocalRay<double>& r, double t, bool entering) {
+inline SurfacePoint surface_of(const Cube&, const LocalRay<double>& r, double t, bool entering) {
   const int axis = cube_face_axis(r, entering);
   const bool high = (r.direction[axis] > 0) != entering;
   Vec3d p = r.origin + r.direction * t, n{};
@@ -64,10 +69,17 @@ inline SurfacePoint cube_surface(const LocalRay<double>& r, double t, bool enter
 }
 
 /// Faces +-x show (y, z), +-y (x, z), +-z (x, y).
-inline TextureCoordinates cube_texture(const Vec3d& p, const Vec3d& n) {
+inline TextureCoordinates texture_of(const Cube&, const SurfacePoint& s) {
+  const Vec3d &p = s.point, &n = s.normal;
   if (n.x != 0) return {p.y, p.z};
   if (n.y != 0) return {p.x, p.z};
   return {p.x, p.y};
 }
+
+inline Extent extent_of(const Cube&, const Vec3d& row) {
+  return {least(row.x, 0) + least(row.y, 0) + least(row.z, 0),
+          greatest(row.x, 0) + greatest(row.y, 0) + greatest(row.z, 0)};
+}
+inline double size_of(const Cube&) { return 1; }
 
 }  // namespace rayfarm

@@ -25,22 +25,12 @@ Interval<T> tube_interval(const LocalRay<T>& r) {
     const T oo = dot(flat.origin, flat.origin) + select(outward > T(0), error, -error);
     return oo < T(1) ? Interval<T>{} : empty_interval<T>();
   }
-  return sphere_interval(flat);
+  return interval_of(Sphere{}, flat);
 }
 
 template <class T>
-Interval<T> cylinder_interval(const Cylinder& c, const LocalRay<T>& r) {
+Interval<T> interval_of(const Cylinder& c, const LocalRay<T>& r) {
   return intersection(tube_interval(r), slab_interval(r, 2, T(c.z_min), T(c.z_max)));
-}
-
-/// For a ray that starts on the cylinder and goes inward. On the side the tube's far root is known; on a cap
-/// the slab's far plane is, as the slab's near one lies behind.
-inline Bounded<double> cylinder_exit_from_surface(const Cylinder& c, const LocalRay<double>& r, bool on_cap) {
-  const LocalRay<double> flat = across_axis(r);
-  Interval<double> tube = tube_interval(r);
-  if (!on_cap && max_abs(flat.direction) > r.direction_error) tube.leave = sphere_exit_from_surface(flat);
-  const Interval<double> slab = slab_interval(r, 2, c.z_min, c.z_max);
-  return intersection(tube, slab).leave;
 }
 
 /// Whether a point of the surface lies on a cap rather than on the side: nearer to a cap's plane than to the
@@ -50,7 +40,16 @@ inline bool is_on_cap(const Cylinder& c, const Vec3d& p) {
   return least(std::fabs(p.z - c.z_min), std::fabs(p.z - c.z_max)) < side;
 }
 
-inline SurfacePoint cylinder_surface(const Cylinder& c, const LocalRay<double>& r, double t, bool entering) {
+/// On the side the tube's far root is known; on a cap the slab's far plane is, as the slab's near one lies behind.
+inline Bounded<double> exit_from_surface(const Cylinder& c, const LocalRay<double>& r) {
+  const LocalRay<double> flat = across_axis(r);
+  Interval<double> tube = tube_interval(r);
+  if (!is_on_cap(c, r.origin) && max_abs(flat.direction) > r.direction_error)
+    tube.leave = exit_from_surface(Sphere{}, flat);
+  return intersection(tube, slab_interval(r, 2, c.z_min, c.z_max)).leave;
+}
+
+inline SurfacePoint surface_of(const Cylinder& c, const LocalRay<double>& r, double t, bool entering) {
   const Interval<double> tube = tube_interval(r);
   const Interval<double> slab = slab_interval(r, 2, c.z_min, c.z_max);
   const bool on_cap = entering ? slab.enter.t > tube.enter.t : slab.leave.t < tube.leave.t;
@@ -59,13 +58,24 @@ inline SurfacePoint cylinder_surface(const Cylinder& c, const LocalRay<double>& 
     const bool high = (r.direction.z > 0) != entering;
     return {{p.x, p.y, high ? c.z_max : c.z_min}, {0, 0, high ? 1.0 : -1.0}};
   }
-  const Vec3d side = sphere_surface(across_axis(r), entering).point;
+  const Vec3d side = surface_of(Sphere{}, across_axis(r), t, entering).point;
   return {{side.x, side.y, p.z}, {side.x, side.y, 0}};
 }
 
 /// u runs around the axis on the side and is 0 on the caps; v = z.
-inline TextureCoordinates cylinder_texture(const Vec3d& p, const Vec3d& n) {
-  return {n.z != 0 ? 0 : deterministic::atan2(p.y, p.x) / (2 * pi) + 0.5, p.z};
+inline TextureCoordinates texture_of(const Cylinder&, const SurfacePoint& s) {
+  return {s.normal.z != 0 ? 0 : deterministic::atan2(s.point.y, s.point.x) / (2 * pi) + 0.5, s.point.z};
+}
+
+inline Extent extent_of(const Cylinder& c, const Vec3d& row) {
+  const double across = std::sqrt(row.x * row.x + row.y * row.y);
+  if (row.z == 0) return about_zero(across);
+  const double a = row.z * c.z_min, b = row.z * c.z_max;
+  return {least(a, b) - across, greatest(a, b) + across};
+}
+inline double size_of(const Cylinder& c) {
+  const double z = greatest(std::fabs(c.z_min), std::fabs(c.z_max));
+  return z < infinity ? greatest(z, 1) : 1.0;
 }
 
 }  // namespace rayfarm

@@ -1,7 +1,5 @@
 #include "common/geometry/leaf.h"
 
-#include "common/geometry/torus.h"
-
 namespace rayfarm {
 namespace {
 
@@ -94,52 +92,6 @@ Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local) {
 
 namespace {
 
-/// Half the extent of the solid's shadow on a world axis, about `middle` (local), given the axis' row.
-struct Extent {
-  double low, high;
-};
-
-Extent about(double middle, double half) { return {middle - half, middle + half}; }
-
-double planar(const Vec3d& row) { return std::sqrt(row.x * row.x + row.y * row.y); }
-
-/// The solid's range along one world axis: local points p give dot(row, p).
-Extent extent(const Solid& solid, const Vec3d& row) {
-  const double endless = infinity;
-  return std::visit(Overload{
-                        [&](const Sphere&) { return about(0, length(row)); },
-                        [&](const Cube&) {
-                          return Extent{least(row.x, 0) + least(row.y, 0) + least(row.z, 0),
-                                        greatest(row.x, 0) + greatest(row.y, 0) + greatest(row.z, 0)};
-                        },
-                        [&](const Plane&) {
-                          if (row.x != 0 || row.y != 0) return Extent{-endless, endless};
-                          return row.z > 0 ? Extent{-endless, 0} : Extent{0, endless};
-                        },
-                        [&](const Cylinder& c) {
-                          if (row.z == 0) return about(0, planar(row));
-                          const double a = row.z * c.z_min, b = row.z * c.z_max;
-                          return Extent{least(a, b) - planar(row), greatest(a, b) + planar(row)};
-                        },
-                        [&](const Torus& t) { return about(0, t.R * planar(row) + t.r * length(row)); },
-                    },
-                    solid);
-}
-
-/// Largest |coordinate| of the solid's local points that matter for the transform's error; unbounded ones are
-/// bounded by what they are cut with.
-double local_size(const Solid& solid) {
-  return std::visit(Overload{
-                        [](const Cylinder& c) {
-                          const double z = greatest(std::fabs(c.z_min), std::fabs(c.z_max));
-                          return z < infinity ? greatest(z, 1) : 1.0;
-                        },
-                        [](const Torus& t) { return t.R + t.r; },
-                        [](const auto&) { return 1.0; },
-                    },
-                    solid);
-}
-
 /// A range along a world axis, with the transform's error for local points of that size.
 void put(Box& box, int axis, const Extent& e, double size, const BoundedAffine& m) {
   const double offset = m.map.offset[axis];
@@ -152,11 +104,15 @@ void put(Box& box, int axis, const Extent& e, double size, const BoundedAffine& 
 }  // namespace
 
 Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local) {
-  Box box;
-  for (int axis = 0; axis < 3; ++axis)
-    put(box, axis, extent(solid, row_of(world_from_local.map.linear, axis)), local_size(solid),
-        world_from_local);
-  return box;
+  return std::visit(
+      [&](const auto& s) {
+        Box box;
+        for (int axis = 0; axis < 3; ++axis)
+          put(box, axis, extent_of(s, row_of(world_from_local.map.linear, axis)), size_of(s),
+              world_from_local);
+        return box;
+      },
+      solid);
 }
 
 Box moved(const Box& box, const BoundedAffine& by) {
@@ -180,50 +136,43 @@ Box moved(const Box& box, const BoundedAffine& by) {
 }
 
 Crossings crossings(const Leaf& leaf, const LocalRay<double>& ray) {
-  if (const auto interval = convex_interval(leaf, ray)) return ahead(*interval);
-  return torus_crossings(std::get<Torus>(leaf.solid), ray);
+  return std::visit(
+      [&]<class S>(const S& solid) {
+        if constexpr (ConvexSolid<S>)
+          return ahead(interval_of(solid, ray));
+        else
+          return crossings_of(solid, ray);
+      },
+      leaf.solid);
 }
 
-Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, bool inward) {
-  if (const Torus* torus = std::get_if<Torus>(&leaf.solid))
-    return torus_crossings_from_surface(*torus, ray, inward);
-  // A convex solid is left for good outward; inward there is one crossing, on the far side.
+namespace {
+
+/// A convex solid is left for good outward; inward there is one crossing, on the far side.
+template <ConvexSolid S>
+Crossings crossings_from_surface(const S& solid, const LocalRay<double>& ray, bool inward) {
   Crossings found;
   if (!inward) return found;
   found.starts_inside = true;
-  const Bounded<double> exit = std::visit(
-      Overload{
-          [&](const Sphere&) { return sphere_exit_from_surface(ray); },
-          [&](const Cylinder& c) { return cylinder_exit_from_surface(c, ray, is_on_cap(c, ray.origin)); },
-          [&](const Cube&) { return cube_interval(ray).leave; },
-          [&](const auto&) { return bounded(infinity, 0.0); },
-      },
-      leaf.solid);
+  const Bounded<double> exit = exit_from_surface(solid, ray);
   // Grazing inward, the exit can round to the origin or behind it.
   if (exit.t < infinity) found.add(crossing_at(exit.t > 0 ? exit : bounded(0.0, 0.0)));
   return found;
 }
 
-SurfacePoint surface_at(const Leaf& leaf, const LocalRay<double>& ray, double t, bool entering) {
-  return std::visit(Overload{
-                        [&](const Sphere&) { return sphere_surface(ray, entering); },
-                        [&](const Cube&) { return cube_surface(ray, t, entering); },
-                        [&](const Plane&) { return plane_surface(ray, t); },
-                        [&](const Cylinder& c) { return cylinder_surface(c, ray, t, entering); },
-                        [&](const Torus& torus) { return torus_surface(torus, ray, t); },
-                    },
+}  // namespace
+
+Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, bool inward) {
+  return std::visit([&](const auto& solid) { return crossings_from_surface(solid, ray, inward); },
                     leaf.solid);
 }
 
+SurfacePoint surface_at(const Leaf& leaf, const LocalRay<double>& ray, double t, bool entering) {
+  return std::visit([&](const auto& solid) { return surface_of(solid, ray, t, entering); }, leaf.solid);
+}
+
 TextureCoordinates texture_at(const Leaf& leaf, const SurfacePoint& s) {
-  return std::visit(Overload{
-                        [&](const Sphere&) { return sphere_texture(s.point); },
-                        [&](const Cube&) { return cube_texture(s.point, s.normal); },
-                        [&](const Plane&) { return plane_texture(s.point); },
-                        [&](const Cylinder&) { return cylinder_texture(s.point, s.normal); },
-                        [&](const Torus& t) { return torus_texture(t, s.point); },
-                    },
-                    leaf.solid);
+  return std::visit([&](const auto& solid) { return texture_of(solid, s); }, leaf.solid);
 }
 
 WorldPoint to_world(const BoundedAffine& world_from_local, const Vec3d& local) {

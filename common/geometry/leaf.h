@@ -4,15 +4,10 @@
 
 #include "common/geometry/bounds.h"
 #include "common/geometry/crossing.h"
-#include "common/geometry/cube.h"
-#include "common/geometry/cylinder.h"
-#include "common/geometry/plane.h"
 #include "common/geometry/ray.h"
-#include "common/geometry/solid.h"
-#include "common/geometry/sphere.h"
+#include "common/geometry/solids.h"
 #include "common/geometry/surface_point.h"
 #include "common/math/affine.h"
-#include "common/math/overload.h"
 
 namespace rayfarm {
 
@@ -58,17 +53,16 @@ inline LocalRay<double> to_local(const Leaf& leaf, const RayQuery& q) {
           leaf.aside};
 }
 
-/// Where the line is inside the leaf; none for a solid that is not convex (a torus): it has only a list of crossings.
+/// Where the line is inside the leaf; none for a solid that is not convex: it has only a list of crossings.
 inline std::optional<Interval<double>> convex_interval(const Leaf& leaf, const LocalRay<double>& ray) {
-  using Convex = std::optional<Interval<double>>;
-  return std::visit(Overload{
-                        [&](const Sphere&) { return Convex(sphere_interval(ray)); },
-                        [&](const Cube&) { return Convex(cube_interval(ray)); },
-                        [&](const Plane&) { return Convex(plane_interval(ray)); },
-                        [&](const Cylinder& c) { return Convex(cylinder_interval(c, ray)); },
-                        [&](const Torus&) { return Convex(); },
-                    },
-                    leaf.solid);
+  return std::visit(
+      [&]<class S>(const S& solid) -> std::optional<Interval<double>> {
+        if constexpr (ConvexSolid<S>)
+          return interval_of(solid, ray);
+        else
+          return std::nullopt;
+      },
+      leaf.solid);
 }
 
 /// The leaf's crossings ahead of the ray.

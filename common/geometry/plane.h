@@ -6,15 +6,26 @@
 namespace rayfarm {
 
 template <class T>
-Interval<T> plane_interval(const LocalRay<T>& r) {
+Interval<T> interval_of(const Plane&, const LocalRay<T>& r) {
   return slab_interval(r, 2, T(-infinity), T(0));
 }
 
-inline SurfacePoint plane_surface(const LocalRay<double>& r, double t) {
+/// Inward there is no other face.
+inline Bounded<double> exit_from_surface(const Plane&, const LocalRay<double>&) {
+  return bounded(infinity, 0.0);
+}
+
+inline SurfacePoint surface_of(const Plane&, const LocalRay<double>& r, double t, bool) {
   const Vec3d p = r.origin + r.direction * t;
   return {{p.x, p.y, 0}, {0, 0, 1}};
 }
 
-inline TextureCoordinates plane_texture(const Vec3d& p) { return {p.x, p.y}; }
+inline TextureCoordinates texture_of(const Plane&, const SurfacePoint& s) { return {s.point.x, s.point.y}; }
+
+inline Extent extent_of(const Plane&, const Vec3d& row) {
+  if (row.x != 0 || row.y != 0) return {-infinity, infinity};
+  return row.z > 0 ? Extent{-infinity, 0} : Extent{0, infinity};
+}
+inline double size_of(const Plane&) { return 1; }
 
 }  // namespace rayfarm

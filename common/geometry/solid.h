@@ -1,32 +1,83 @@
 // The solids, each in its local space, and the set operations on them.
+//
+// A solid names itself and its numbers for people, and says which of its faces are flat; what a ray meets of it
+// stands in a header of its own (solids.h lists them).
 #pragma once
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <variant>
 
 namespace rayfarm {
 
+struct NamedNumber {
+  const char* name;
+  double value;
+};
+
+/// Faces that have one normal each, so that two different normals tell two faces. Caps are across the z axis.
+enum class FlatFaces : std::uint8_t { none, caps, all };
+
 struct Sphere {  // unit radius about the origin
+  static constexpr std::string_view name = "sphere";
+  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Sphere&) const = default;
 };
+
 struct Cube {  // [0,1]^3
+  static constexpr std::string_view name = "cube";
+  static constexpr FlatFaces flat_faces = FlatFaces::all;
+  static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Cube&) const = default;
 };
+
 struct Plane {  // the half-space z < 0; its face is z = 0
+  static constexpr std::string_view name = "plane";
+  static constexpr FlatFaces flat_faces = FlatFaces::all;
+  static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Plane&) const = default;
 };
+
 struct Cylinder {  // x^2 + y^2 < 1, z_min < z < z_max; infinite limits mean no cap
   double z_min = -std::numeric_limits<double>::infinity();
   double z_max = std::numeric_limits<double>::infinity();
+
+  static constexpr std::string_view name = "cylinder";
+  static constexpr FlatFaces flat_faces = FlatFaces::caps;
+  std::array<NamedNumber, 2> numbers() const { return {{{"z_min", z_min}, {"z_max", z_max}}}; }
   bool operator==(const Cylinder&) const = default;
 };
+
+/// x^2 + y^2 < z^2, z_min < z < z_max; its apex is the origin. Limits of different signs keep both nappes,
+/// infinite ones mean no cap.
+struct Cone {
+  double z_min = 0, z_max = 1;
+
+  static constexpr std::string_view name = "cone";
+  static constexpr FlatFaces flat_faces = FlatFaces::caps;
+  std::array<NamedNumber, 2> numbers() const { return {{{"z_min", z_min}, {"z_max", z_max}}}; }
+  bool operator==(const Cone&) const = default;
+};
+
 /// Axis z; the tube's centre runs on the circle of radius R in z = 0, the tube has radius r. Both > 0. A
 /// spindle torus (R < r) is the apple without the lemon.
 struct Torus {
   double R = 1, r = 0.25;
+
+  static constexpr std::string_view name = "torus";
+  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  std::array<NamedNumber, 2> numbers() const { return {{{"R", R}, {"r", r}}}; }
   bool operator==(const Torus&) const = default;
 };
-using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus>;
+
+using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus, Cone>;
+
+/// The word for a solid: in scripts, messages and the browser.
+inline std::string_view kind_of(const Solid& solid) {
+  return std::visit([](const auto& s) { return s.name; }, solid);
+}
 
 enum class CsgOp : std::uint8_t { unite, intersect, subtract, exclusive_or };
 

@@ -6,6 +6,7 @@
 #pragma once
 #include "common/geometry/crossing.h"
 #include "common/geometry/ray.h"
+#include "common/geometry/solid.h"
 #include "common/geometry/surface_point.h"
 #include "common/math/deterministic.h"
 
@@ -58,7 +59,7 @@ Interval<T> interval_about(const ClosestApproach<T>& c, T disc, T disc_error) {
 }
 
 template <class T>
-Interval<T> sphere_interval(const LocalRay<T>& ray) {
+Interval<T> interval_of(const Sphere&, const LocalRay<T>& ray) {
   using std::fabs;
   const ClosestApproach<T> c = closest_approach(ray);
   const T pp = dot(c.p, c.p);
@@ -71,14 +72,14 @@ Interval<T> sphere_interval(const LocalRay<T>& ray) {
 /// The crossing on the far side, for a ray that starts on the sphere and goes inward: the other root is
 /// known.
 template <class T>
-Bounded<T> sphere_exit_from_surface(const LocalRay<T>& ray) {
+Bounded<T> exit_from_surface(const Sphere&, const LocalRay<T>& ray) {
   const T dd = dot(ray.direction, ray.direction);
   const T t = greatest(T(-2) * dot(ray.origin, ray.direction) / dd, T(0));
   const ClosestApproach<T> c = closest_approach(ray);
   return bounded(t, T(2) * c.t_error);
 }
 
-inline SurfacePoint sphere_surface(const LocalRay<double>& ray, bool entering) {
+inline SurfacePoint surface_of(const Sphere&, const LocalRay<double>& ray, double, bool entering) {
   const ClosestApproach<double> c = closest_approach(ray);
   const double half = std::sqrt(greatest(1 - dot(c.p, c.p), 0) * c.inverse_dd);
   const Vec3d p = normalized(c.p + ray.direction * (entering ? -half : half));
@@ -88,10 +89,14 @@ inline SurfacePoint sphere_surface(const LocalRay<double>& ray, bool entering) {
 constexpr double pi = 3.14159265358979323846;
 
 /// u runs around the z axis, v from 0 at +z to 1 at -z.
-inline TextureCoordinates sphere_texture(const Vec3d& p) {
+inline TextureCoordinates texture_of(const Sphere&, const SurfacePoint& s) {
+  const Vec3d& p = s.point;
   const double across = std::sqrt(p.x * p.x + p.y * p.y);
   const double u = across == 0 ? 0 : deterministic::atan2(p.y, p.x) / (2 * pi) + 0.5;
   return {u, deterministic::atan2(across, p.z) / pi};
 }
+
+inline Extent extent_of(const Sphere&, const Vec3d& row) { return about_zero(length(row)); }
+inline double size_of(const Sphere&) { return 1; }
 
 }  // namespace rayfarm

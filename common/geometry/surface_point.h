@@ -1,4 +1,4 @@
-// A point of a solid's surface in its local space, and its texture coordinates.
+// A point of a solid's surface in its local space, its texture coordinates, and how far a solid reaches.
 #pragma once
 #include "common/math/vec.h"
 
@@ -12,5 +12,12 @@ struct SurfacePoint {
 struct TextureCoordinates {
   double u = 0, v = 0;
 };
+
+/// The range of a solid's points along an axis.
+struct Extent {
+  double low, high;
+};
+
+inline Extent about_zero(double half) { return {-half, half}; }
 
 }  // namespace rayfarm

@@ -190,7 +190,7 @@ Line line_crossings(const Setting& s, double start_u, bool start_inside) {
 
 }  // namespace
 
-Crossings torus_crossings(const Torus& torus, const LocalRay<double>& ray) {
+Crossings crossings_of(const Torus& torus, const LocalRay<double>& ray) {
   Setting s;
   Crossings found;
   if (!set_up(torus, ray, s)) return found;
@@ -205,7 +205,7 @@ Crossings torus_crossings(const Torus& torus, const LocalRay<double>& ray) {
   return found;
 }
 
-Crossings torus_crossings_from_surface(const Torus& torus, const LocalRay<double>& ray, bool inward) {
+Crossings crossings_from_surface(const Torus& torus, const LocalRay<double>& ray, bool inward) {
   Setting s;
   Crossings found;
   found.starts_inside = inward;
@@ -219,7 +219,7 @@ Crossings torus_crossings_from_surface(const Torus& torus, const LocalRay<double
   return found;
 }
 
-SurfacePoint torus_surface(const Torus& torus, const LocalRay<double>& ray, double t) {
+SurfacePoint surface_of(const Torus& torus, const LocalRay<double>& ray, double t, bool) {
   const Vec3d p = ray.origin + ray.direction * t;
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);
   const Vec3d outward = rho > 0 ? Vec3d{p.x / rho, p.y / rho, 0} : Vec3d{1, 0, 0};
@@ -230,10 +230,11 @@ SurfacePoint torus_surface(const Torus& torus, const LocalRay<double>& ray, doub
   return {centre + spoke * torus.r, on_lemon ? -spoke : spoke};
 }
 
-TextureCoordinates torus_texture(const Torus& torus, const Vec3d& p) {
+TextureCoordinates texture_of(const Torus& torus, const SurfacePoint& s) {
+  const Vec3d& p = s.point;
   // A point of a spindle torus' inner skin lies on the tube whose centre is across the axis.
   const double rho = std::sqrt(p.x * p.x + p.y * p.y), near = rho - torus.R, across = -(rho + torus.R);
-  const auto off_tube = [&](double s) { return std::fabs(s * s + p.z * p.z - torus.r * torus.r); };
+  const auto off_tube = [&](double q) { return std::fabs(q * q + p.z * p.z - torus.r * torus.r); };
   return {deterministic::atan2(p.y, p.x) / (2 * pi) + 0.5,
           deterministic::atan2(off_tube(near) <= off_tube(across) ? near : across, p.z) / (2 * pi) + 0.5};
 }

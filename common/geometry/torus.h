@@ -15,14 +15,19 @@
 namespace rayfarm {
 
 /// The crossings ahead of the ray's origin.
-Crossings torus_crossings(const Torus& torus, const LocalRay<double>& ray);
+Crossings crossings_of(const Torus& torus, const LocalRay<double>& ray);
 
 /// For a ray that starts on the torus: the crossing at the origin is known and left out.
-Crossings torus_crossings_from_surface(const Torus& torus, const LocalRay<double>& ray, bool inward);
+Crossings crossings_from_surface(const Torus& torus, const LocalRay<double>& ray, bool inward);
 
-SurfacePoint torus_surface(const Torus& torus, const LocalRay<double>& ray, double t);
+SurfacePoint surface_of(const Torus& torus, const LocalRay<double>& ray, double t, bool entering);
 
 /// u runs around the axis, v around the tube.
-TextureCoordinates torus_texture(const Torus& torus, const Vec3d& p);
+TextureCoordinates texture_of(const Torus& torus, const SurfacePoint& s);
+
+inline Extent extent_of(const Torus& torus, const Vec3d& row) {
+  return about_zero(torus.R * std::sqrt(row.x * row.x + row.y * row.y) + torus.r * length(row));
+}
+inline double size_of(const Torus& torus) { return torus.R + torus.r; }
 
 }  // namespace rayfarm

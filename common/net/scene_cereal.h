@@ -14,6 +14,10 @@ void serialize(Archive& archive, Cylinder& c) {
   archive(c.z_min, c.z_max);
 }
 template <class Archive>
+void serialize(Archive& archive, Cone& c) {
+  archive(c.z_min, c.z_max);
+}
+template <class Archive>
 void serialize(Archive& archive, Torus& t) {
   archive(t.R, t.r);
 }

@@ -55,12 +55,7 @@ std::string_view name_of(CsgOp op) {
 
 struct KindName {
   std::string_view operator()(const Operation& o) const { return name_of(o.op); }
-  std::string_view operator()(const Solid& s) const { return std::visit(*this, s); }
-  std::string_view operator()(const Sphere&) const { return "sphere"; }
-  std::string_view operator()(const Cube&) const { return "cube"; }
-  std::string_view operator()(const Plane&) const { return "plane"; }
-  std::string_view operator()(const Cylinder&) const { return "cylinder"; }
-  std::string_view operator()(const Torus&) const { return "torus"; }
+  std::string_view operator()(const Solid& s) const { return kind_of(s); }
 };
 
 std::string place_of(const Scene& scene, std::size_t node) {
@@ -72,17 +67,22 @@ std::string place_of(const Scene& scene, std::size_t node) {
 
 /// What is wrong with a solid's own numbers; empty when nothing is.
 struct SolidFault {
-  std::string operator()(const Sphere&) const { return {}; }
-  std::string operator()(const Cube&) const { return {}; }
-  std::string operator()(const Plane&) const { return {}; }
-  std::string operator()(const Cylinder& c) const {
-    if (c.z_min < c.z_max) return {};
-    return "z_min must be below z_max, but they are " + text(c.z_min) + " and " + text(c.z_max);
-  }
+  std::string operator()(const Cylinder& c) const { return fault_of_limits(c.z_min, c.z_max); }
+  std::string operator()(const Cone& c) const { return fault_of_limits(c.z_min, c.z_max); }
   std::string operator()(const Torus& t) const {
     if (!(std::isfinite(t.R) && t.R > 0)) return "R must be positive, is " + text(t.R);
     if (!(std::isfinite(t.r) && t.r > 0)) return "r must be positive, is " + text(t.r);
     return {};
+  }
+  template <class WithoutNumbers>
+  std::string operator()(const WithoutNumbers&) const {
+    return {};
+  }
+
+ private:
+  static std::string fault_of_limits(double z_min, double z_max) {
+    if (z_min < z_max) return {};
+    return "z_min must be below z_max, but they are " + text(z_min) + " and " + text(z_max);
   }
 };
 

@@ -2,17 +2,6 @@
 
 namespace rayfarm {
 
-const char* kind_of(const Solid& solid) {
-  struct Name {
-    const char* operator()(const Sphere&) const { return "sphere"; }
-    const char* operator()(const Cube&) const { return "cube"; }
-    const char* operator()(const Plane&) const { return "plane"; }
-    const char* operator()(const Cylinder&) const { return "cylinder"; }
-    const char* operator()(const Torus&) const { return "torus"; }
-  };
-  return std::visit(Name{}, solid);
-}
-
 namespace {
 
 /// Returns the node after the subtree.
@@ -20,7 +9,7 @@ std::size_t add_names(const Scene& scene, std::size_t number, const std::string&
                       std::vector<std::string>& names) {
   const Node& node = scene.nodes[number];
   if (const auto* solid = std::get_if<Solid>(&node.content)) {
-    const std::string own = node.name.empty() ? kind_of(*solid) : node.name;
+    const std::string own = node.name.empty() ? std::string(kind_of(*solid)) : node.name;
     names.push_back(above + own + " #" + std::to_string(names.size()));
     return number + 1;
   }

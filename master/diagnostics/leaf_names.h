@@ -7,9 +7,6 @@
 
 namespace rayfarm {
 
-/// "sphere", "cube", "plane", "cylinder" or "torus".
-const char* kind_of(const Solid& solid);
-
 /// By leaf number (in preorder): the names on the way down to it, its kind unless it has a name of its own,
 /// and its number: "clown/sphere #12", "floor #0".
 std::vector<std::string> leaf_names(const Scene& scene);

@@ -43,17 +43,14 @@ json json_of_light(const Light& light) {
 
 /// Limits that are infinite are null.
 json json_of_parameters(const Solid& solid) {
-  return std::visit(Overload{[](const Cylinder& c) {
-                               const auto limit = [](double z) {
-                                 return std::isfinite(z) ? json(z) : json();
-                               };
-                               return json{{"z_min", limit(c.z_min)}, {"z_max", limit(c.z_max)}};
-                             },
-                             [](const Torus& t) {
-                               return json{{"R", t.R}, {"r", t.r}};
-                             },
-                             [](const auto&) { return json::object(); }},
-                    solid);
+  json parameters = json::object();
+  std::visit(
+      [&](const auto& s) {
+        for (const auto& [name, value] : s.numbers())
+          parameters[name] = std::isfinite(value) ? json(value) : json();
+      },
+      solid);
+  return parameters;
 }
 
 json json_of_matrix(const Affine& m) {

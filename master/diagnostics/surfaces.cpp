@@ -7,6 +7,10 @@
 namespace rayfarm {
 namespace {
 
+FlatFaces flat_faces_of(const Solid& solid) {
+  return std::visit([](const auto& s) { return s.flat_faces; }, solid);
+}
+
 /// Whether two points of a face lie on one sheet of it, as seen from about the same place.
 ///
 /// Of a sheet that bends one way, the chord between two points rises from the tangent plane at one of them and
@@ -100,7 +104,7 @@ void PixelSurfaces::add_new(const SurfaceSample& sample, std::uint32_t weight) {
 
 bool PixelSurfaces::is_cap(const SurfaceSample& sample) const {
   const Leaf& leaf = world_->leaves[sample.leaf];
-  if (!std::holds_alternative<Cylinder>(leaf.solid)) return false;
+  if (flat_faces_of(leaf.solid) != FlatFaces::caps) return false;
   const Vec3d& axis = leaf.row[2];  // normals of the caps lie along it, those of the side never
   const double along = dot(sample.normal, axis);
   return along * along > (1 - 1e-12) * dot(axis, axis);
@@ -111,7 +115,7 @@ bool PixelSurfaces::shows(const Rank& rank, const SurfaceSample& sample) const {
   if (sample.leaf != rank.first.leaf || sample.into_leaf != rank.first.into_leaf) return false;
   if (sample.normal != rank.first.normal) {
     const Leaf& leaf = world_->leaves[sample.leaf];
-    if (std::holds_alternative<Cube>(leaf.solid)) return false;
+    if (flat_faces_of(leaf.solid) == FlatFaces::all) return false;
     if (rank.is_cap || is_cap(sample)) return false;
   }
   return on_one_sheet(rank.first, sample);

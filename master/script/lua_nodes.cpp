@@ -12,6 +12,7 @@ const Signature sphere_signature{"sphere", {}};
 const Signature cube_signature{"cube", {}};
 const Signature plane_signature{"plane", {}};
 const Signature cylinder_signature{"cylinder", {"zmin", "zmax"}, 2};
+const Signature cone_signature{"cone", {"zmin", "zmax"}, 2};
 const Signature torus_signature{"torus", {"R", "r"}, 2};
 
 int push_solid(lua_State* L, const Solid& solid) {
@@ -33,14 +34,19 @@ int make_plane(lua_State* L) {
   const Fields none(L, 1, plane_signature);
   return push_solid(L, Plane{});
 }
-int make_cylinder(lua_State* L) {
-  const Fields fields(L, 1, cylinder_signature);
-  Cylinder cylinder;
-  cylinder.z_min = fields.number("zmin", cylinder.z_min, Range::infinite_too);
-  cylinder.z_max = fields.number("zmax", cylinder.z_max, Range::infinite_too);
-  if (!(cylinder.z_min < cylinder.z_max)) throw SceneError("cylinder: zmin must be below zmax");
-  return push_solid(L, cylinder);
+/// A solid about the z axis between two limits.
+template <class S>
+int make_limited(lua_State* L, const Signature& signature) {
+  const Fields fields(L, 1, signature);
+  S solid;
+  solid.z_min = fields.number("zmin", solid.z_min, Range::infinite_too);
+  solid.z_max = fields.number("zmax", solid.z_max, Range::infinite_too);
+  if (!(solid.z_min < solid.z_max))
+    throw SceneError(std::string(signature.function) + ": zmin must be below zmax");
+  return push_solid(L, solid);
 }
+int make_cylinder(lua_State* L) { return make_limited<Cylinder>(L, cylinder_signature); }
+int make_cone(lua_State* L) { return make_limited<Cone>(L, cone_signature); }
 int make_torus(lua_State* L) {
   const Fields fields(L, 1, torus_signature);
   Torus torus;
@@ -164,6 +170,7 @@ void open_nodes(lua_State* L) {
   lua_register(L, "cube", guarded<make_cube>);
   lua_register(L, "plane", guarded<make_plane>);
   lua_register(L, "cylinder", guarded<make_cylinder>);
+  lua_register(L, "cone", guarded<make_cone>);
   lua_register(L, "torus", guarded<make_torus>);
   lua_register(L, "union", guarded<make_union>);
   lua_register(L, "intersection", guarded<make_intersection>);
@@ -172,9 +179,9 @@ void open_nodes(lua_State* L) {
 }
 
 const std::vector<Signature>& node_signatures() {
-  static const std::vector<Signature> all{sphere_signature,     cube_signature,     plane_signature,
-                                          cylinder_signature,   torus_signature,    {"union", {}},
-                                          {"intersection", {}}, {"difference", {}}, {"xor", {}}};
+  static const std::vector<Signature> all{
+      sphere_signature, cube_signature, plane_signature,      cylinder_signature, cone_signature,
+      torus_signature,  {"union", {}},  {"intersection", {}}, {"difference", {}}, {"xor", {}}};
   return all;
 }
 

@@ -93,6 +93,43 @@ Spans spans_of_chord(const Chord& chord) {
   return spans;
 }
 
+Spans spans_of_solid(const Torus& torus, const Ray& ray) { return spans_of_torus(torus, ray); }
+
+// x^2 + y^2 - z^2 < 0 between the roots, or before the first and after the last.
+Spans spans_of_solid(const Cone& cone, const Ray& ray) {
+  const Vec metric(1, 1, -1);
+  const Vec o = ray.origin, d = ray.direction;
+  const Real a = glm::dot(d * metric, d), b = glm::dot(o * metric, d), c = glm::dot(o * metric, o);
+  const Vec m = glm::cross(o, d);
+  const Real rest = glm::dot(m * metric, m);  // b^2 - a c
+  if (rest <= 0 || a == 0) return {};
+  const Real root = std::sqrt(rest), q = -(b + std::copysign(root, b));
+  const Real first = std::min(c / q, q / a), last = std::max(c / q, q / a);
+  const auto gradient = [&](Real t) { return metric * (o + t * d); };
+
+  std::vector<Chord> nappes(1);
+  nappes[0].clip(first, gradient(first), last, gradient(last));
+  if (a < 0) {
+    nappes.assign(2, {});
+    nappes[0].clip(-infinity, Vec(0), first, gradient(first));
+    nappes[1].clip(last, gradient(last), infinity, Vec(0));
+  }
+  Spans spans;
+  for (Chord& nappe : nappes) {
+    clip_half_space(nappe, ray, Vec(0, 0, -1), -Real(cone.z_min));
+    clip_half_space(nappe, ray, Vec(0, 0, 1), cone.z_max);
+    const Spans part = spans_of_chord(nappe);
+    spans.starts_inside = spans.starts_inside || part.starts_inside;
+    spans.crossings.insert(spans.crossings.end(), part.crossings.begin(), part.crossings.end());
+  }
+  return spans;
+}
+
+template <class Convex>
+Spans spans_of_solid(const Convex& solid, const Ray& ray) {
+  return spans_of_chord(chord_of(solid, ray));
+}
+
 Real size_of(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 Spans spans_of_leaf(const Leaf& leaf, int number, const Ray& ray) {
@@ -198,14 +235,7 @@ std::vector<Leaf> leaves_of(const Scene& scene) {
 }
 
 Spans spans_of(const Solid& solid, const Ray& local) {
-  return std::visit(
-      [&](const auto& s) {
-        if constexpr (std::is_same_v<decltype(s), const Torus&>)
-          return spans_of_torus(s, local);
-        else
-          return spans_of_chord(chord_of(s, local));
-      },
-      solid);
+  return std::visit([&](const auto& s) { return spans_of_solid(s, local); }, solid);
 }
 
 Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray) {

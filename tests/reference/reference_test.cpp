@@ -6,6 +6,7 @@
 #include "tests/reference/reference_torus.h"
 #include "tests/reference/reference_tracer.h"
 #include "tests/support/random_scene.h"
+#include "tests/support/solid_definitions.h"
 
 namespace rayfarm {
 namespace {
@@ -138,26 +139,7 @@ TEST(ReferenceSpans, CoincidentFacesLeaveNoSkin) {
   }
 }
 
-// Implicit functions: a second opinion on where the inside is, for whole trees.
-bool contains(const Solid& solid, const Vec& p) {
-  struct Inside {
-    Vec p;
-    bool operator()(const Sphere&) const { return glm::dot(p, p) < 1; }
-    bool operator()(const Cube&) const {
-      return p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1;
-    }
-    bool operator()(const Plane&) const { return p.z < 0; }
-    bool operator()(const Cylinder& c) const {
-      return std::hypot(p.x, p.y) < 1 && p.z > c.z_min && p.z < c.z_max;
-    }
-    bool operator()(const Torus& t) const {
-      const Real rho = std::hypot(p.x, p.y), r = t.r;
-      return std::hypot(rho - Real(t.R), p.z) < r && std::hypot(rho + Real(t.R), p.z) > r;
-    }
-  };
-  return std::visit(Inside{p}, solid);
-}
-
+// Implicit functions (solid_definitions.h): a second opinion on where the inside is, for whole trees.
 bool contains(const Scene& scene, std::size_t& node, const std::vector<reference::Leaf>& leaves, int& number,
               const Vec& p) {
   const auto* op = std::get_if<Operation>(&scene.nodes[node++].content);

@@ -68,6 +68,9 @@ Uv uv_of(const Plane&, const Vec& p, const Vec&) { return {p.x, p.y}; }
 Uv uv_of(const Cylinder&, const Vec& p, const Vec& gradient) {
   return {gradient.z != 0 ? 0 : turn(p.y, p.x), p.z};
 }
+Uv uv_of(const Cone&, const Vec& p, const Vec& gradient) {
+  return {gradient.x == 0 && gradient.y == 0 ? 0 : turn(p.y, p.x), p.z};
+}
 Uv uv_of(const Torus& torus, const Vec& p, const Vec&) {
   const Real R = torus.R, rho = std::hypot(p.x, p.y), to_near = rho - R, to_far = -(rho + R);
   const auto off_tube = [&](Real s) { return std::abs(s * s + p.z * p.z - Real(torus.r) * torus.r); };

@@ -84,8 +84,10 @@ Solid random_solid(Dice& dice, const Placement& placement) {
       return Cylinder{};
     case 7:
       return Cylinder{-placement.length(dice), placement.length(dice)};
-    default:
+    case 8:
       return Torus{placement.length(dice), placement.length(dice)};
+    default:
+      return Cone{-placement.length(dice), placement.length(dice)};
   }
 }
 

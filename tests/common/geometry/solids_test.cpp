@@ -2,6 +2,7 @@
 
 #include "common/geometry/leaf.h"
 #include "tests/common/geometry/rays.h"
+#include "tests/support/solid_definitions.h"
 
 namespace rayfarm {
 namespace {
@@ -12,23 +13,6 @@ Leaf placed(const Solid& solid, const Affine& world_from_local = {}) {
 
 Crossings along(const Leaf& leaf, const Vec3d& origin, const Vec3d& direction) {
   return crossings(leaf, to_local(leaf, RayQuery({origin, direction})));
-}
-
-/// By definition, away from the surface.
-bool contains(const Solid& solid, const Vec3d& p) {
-  if (std::holds_alternative<Sphere>(solid)) return dot(p, p) < 1;
-  if (std::holds_alternative<Cube>(solid))
-    return p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1;
-  if (std::holds_alternative<Plane>(solid)) return p.z < 0;
-  if (const auto* c = std::get_if<Cylinder>(&solid))
-    return p.x * p.x + p.y * p.y < 1 && p.z > c->z_min && p.z < c->z_max;
-  const auto& t = std::get<Torus>(solid);
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y), z = p.z * p.z - t.r * t.r;
-  return ((rho - t.R) * (rho - t.R) + z < 0) != ((rho + t.R) * (rho + t.R) + z < 0);
-}
-
-std::vector<Solid> all_solids() {
-  return {Sphere{}, Cube{}, Plane{}, Cylinder{-0.5, 0.75}, Cylinder{}, Torus{1, 0.25}, Torus{0.5, 0.8}};
 }
 
 TEST(Solids, CrossingsSayWhereARayIsInside) {
@@ -92,6 +76,24 @@ TEST(Solids, AnAxialRayMeetsTheCapsOfACylinder) {
     EXPECT_DOUBLE_EQ(c.at[1].t, 3.5);
   }
   EXPECT_EQ(along(leaf, {1.25, 0, -3}, {0, 0, 1}).count, 0);
+}
+
+TEST(Solids, ARayThroughTheApexOfAConeOrAlongAGeneratorStaysEven) {
+  RandomRays random(10);
+  const Leaf both = placed(Cone{-1, 1});
+  for (int i = 0; i < 20'000; ++i) {
+    const double off = i % 3 == 0 ? 0 : std::ldexp(1.0, -(i % 60));
+    const Vec3d through = random.direction() * off, d = random.direction();
+    const double turn = random.uniform(-4, 4), across = std::sqrt(0.5);
+    const Vec3d generator{across * std::cos(turn), across * std::sin(turn), across};
+    for (const Vec3d& direction : {d, generator, generator + d * off}) {
+      const Crossings c = along(both, through - direction * 5.0, direction);
+      ASSERT_FALSE(c.starts_inside);
+      ASSERT_EQ(c.count % 2, 0);
+    }
+  }
+  // Along the axis it passes from one nappe into the other.
+  EXPECT_EQ(along(both, {0.25, 0, -3}, {0, 0, 1}).count, 4);
 }
 
 TEST(Solids, ARayParallelToAPlaneIsInsideItForEverOrNever) {

@@ -14,7 +14,7 @@ TEST(Torus, ARayFromOutsideAlwaysCrossesAnEvenNumberOfTimes) {
     for (const double distance : {1.5, 10.0, 1e4, 1e6})
       for (int i = 0; i < 20'000; ++i) {
         const double size = torus.R + torus.r;
-        const Crossings c = torus_crossings(torus, local(random.towards_box(distance * size, size)));
+        const Crossings c = crossings_of(torus, local(random.towards_box(distance * size, size)));
         ASSERT_EQ(c.count % 2, 0);
         ASSERT_FALSE(c.starts_inside);
         for (int k = 1; k < c.count; ++k)
@@ -28,10 +28,10 @@ TEST(Torus, CrossingsLieOnTheSurface) {
     const double size = torus.R + torus.r;
     for (int i = 0; i < 20'000; ++i) {
       const Ray r = random.towards_box(3 * size, size);
-      const Crossings c = torus_crossings(torus, local(r));
+      const Crossings c = crossings_of(torus, local(r));
       for (int k = 0; k < c.count; ++k) {
         const double t = c.at[static_cast<std::size_t>(k)].t;
-        const Vec3d p = r.origin + r.direction * t, on = torus_surface(torus, local(r), t).point;
+        const Vec3d p = r.origin + r.direction * t, on = surface_of(torus, local(r), t, true).point;
         ASSERT_LT(length(p - on), 8 * c.at[static_cast<std::size_t>(k)].error + 64 * unit_roundoff * size);
       }
     }
@@ -49,7 +49,7 @@ TEST(Torus, ARayThroughTheTubesTopTangentPlaneStaysEven) {
       Ray r;
       r.origin = {random.uniform(-30, -25), random.uniform(-30, 30), z};
       r.direction = normalized(target - r.origin);
-      ASSERT_EQ(torus_crossings(torus, local(r)).count % 2, 0);
+      ASSERT_EQ(crossings_of(torus, local(r)).count % 2, 0);
     }
 }
 
@@ -58,7 +58,7 @@ TEST(Torus, ARayAlongTheAxisOfASpindleFindsAppleAndLemon) {
   const double tip = std::sqrt(1 - 0.25);
   Ray r;
   r.origin = {0.01, 0, -5}, r.direction = {0, 0, 1};
-  const Crossings c = torus_crossings(spindle, local(r));
+  const Crossings c = crossings_of(spindle, local(r));
   ASSERT_EQ(c.count, 4);
   EXPECT_NEAR(c.at[0].t, 5 - tip, 0.01);
   EXPECT_NEAR(c.at[1].t, 5 - tip, 0.01);

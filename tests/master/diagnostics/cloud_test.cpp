@@ -16,6 +16,7 @@
 #include "tests/support/mirror_hall.h"
 #include "tests/support/random_scene.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/solid_definitions.h"
 
 namespace rayfarm {
 namespace {
@@ -87,24 +88,6 @@ std::vector<PlyPoint> points_of(const std::string& bytes) {
   return points;
 }
 
-/// How far the point is from the solid's surface, in its local space; by the solids' definitions alone.
-double off_surface(const Solid& solid, const Vec3d& p) {
-  const double round = std::hypot(p.x, p.y);
-  const auto box = [](double low, double high, double at) { return std::max(low - at, at - high); };
-  return std::fabs(std::visit(
-      Overload{[&](const Sphere&) { return length(p) - 1; },
-               [&](const Cube&) {
-                 return std::max({box(0, 1, p.x), box(0, 1, p.y), box(0, 1, p.z)});
-               },
-               [&](const Plane&) { return p.z; },
-               [&](const Cylinder& c) { return std::max(round - 1, box(c.z_min, c.z_max, p.z)); },
-               // Of a spindle torus the lemon inside is left out.
-               [&](const Torus& t) {
-                 return std::max(std::hypot(round - t.R, p.z) - t.r, t.r - std::hypot(round + t.R, p.z));
-               }},
-      solid));
-}
-
 TEST(Cloud, LiesOnTheScenesSurfacesWithUnitNormals) {
   const ScratchFolder folder;
   for (const std::uint64_t seed : {0, 1, 3, 4, 5, 6}) {  // what scene 2 has lies out of view
@@ -125,7 +108,7 @@ TEST(Cloud, LiesOnTheScenesSurfacesWithUnitNormals) {
         // The file's floats round the point by 6e-8 of its size, the leaf's transform stretches that.
         const double scale =
             (1 + max_abs(p)) * (length(leaf.row[0]) + length(leaf.row[1]) + length(leaf.row[2]));
-        nearest = std::min(nearest, off_surface(leaf.solid, local) / scale);
+        nearest = std::min(nearest, std::fabs(beyond(leaf.solid, local)) / scale);
       }
       ASSERT_LT(nearest, 1e-6) << "scene " << seed;
     }

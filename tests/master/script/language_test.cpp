@@ -20,6 +20,8 @@ TEST(Language, EachSolidIsMadeByItsName) {
   EXPECT_EQ(std::get<Solid>(scene_with("cylinder{ zmax = 2 }").nodes[0].content), Solid(Cylinder{-inf, 2}));
   EXPECT_EQ(std::get<Solid>(scene_with("cylinder{ 0, math.huge }").nodes[0].content),
             Solid(Cylinder{0, inf}));
+  EXPECT_EQ(std::get<Solid>(scene_with("cone{}").nodes[0].content), Solid(Cone{0, 1}));
+  EXPECT_EQ(std::get<Solid>(scene_with("cone{ zmin = -1 }").nodes[0].content), Solid(Cone{-1, 1}));
   EXPECT_EQ(std::get<Solid>(scene_with("torus{ 2, 0.5 }").nodes[0].content), Solid(Torus{2, 0.5}));
   EXPECT_EQ(std::get<Solid>(scene_with("torus{ r = 2, R = 3 }").nodes[0].content), Solid(Torus{3, 2}));
 }

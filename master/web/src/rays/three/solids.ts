@@ -144,6 +144,16 @@ function instanceOf(solid: SolidView, box: Box, detail: number): Instance | null
       const stretched = new THREE.Matrix4().makeScale(1, 1, high - low).setPosition(0, 0, low);
       return { shape: open ? "tube" : "cylinder", make, place: world.multiply(stretched) };
     }
+    case "cone": {
+      const [low, high] = limitsOf(solid, world, box);
+      const heights = low < 0 && high > 0 ? [low, 0, high] : [low, high];
+      const make = () => {
+        const side = heights.map((z) => new THREE.Vector2(Math.abs(z), z));
+        const outline = [new THREE.Vector2(0, low), ...side, new THREE.Vector2(0, high)];
+        return new THREE.LatheGeometry(outline, 2 * detail).rotateX(Math.PI / 2);
+      };
+      return { shape: `cone ${low} ${high}`, make, place: world };
+    }
     case "plane": {
       const { middle, across, along: down } = patchOf(solid, box);
       const place = new THREE.Matrix4().makeBasis(
@@ -162,7 +172,7 @@ function instanceOf(solid: SolidView, box: Box, detail: number): Instance | null
   }
 }
 
-/// Of a cylinder along its axis; where it is endless, as far as the box.
+/// Of a cylinder or cone along its axis; where it is endless, as far as the box.
 function limitsOf(solid: SolidView, world: THREE.Matrix4, box: Box): [number, number] {
   const local = world.clone().invert();
   const reach = edgesOf(box)
