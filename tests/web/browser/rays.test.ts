@@ -170,7 +170,7 @@ describe("the 3D view", () => {
   it("marks the samples that stand out, unless that is toggled off", async () => {
     const many = await farm.render("sphere_plane", "--size", "80x60", "--spp", "16");
     await showLayer(page, many);
-    const edge: Pixel = { x: 9, y: 20 }; // of the ball; one sample just misses it
+    const edge: Pixel = { x: 9, y: 20 }; // of the ball, which one sample just meets
     await probe(edge);
     expect(await painted(violet)).toBe(0);
     await page.getByRole("combobox", { name: /^Sample/ }).selectOption("all");

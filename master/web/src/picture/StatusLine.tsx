@@ -75,11 +75,11 @@ export function StatusLine() {
               every {step === 2 ? "2nd" : `${step}th`} pixel
             </span>
           )}
-          <span>
+          <span class="spare">
             {job.settings.width} × {job.settings.height}
           </span>
-          <span>{job.settings.spp} spp</span>
-          <span>#{job.id}</span>
+          <span class="spare">{job.settings.spp} spp</span>
+          <span class="spare">#{job.id}</span>
           <ZoomTools />
         </span>
       )}

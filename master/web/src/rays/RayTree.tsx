@@ -48,18 +48,22 @@ function Mark({ entry }: { entry: Entry }) {
 function Name({ entry }: { entry: Entry }) {
   const sample = samples.value[entry.sample];
   if (entry.level > 0 || samples.value.length < 2 || !sample) return <>{nameOf(entry)}</>;
-  const { mean, deviation, outliers } = spread.value;
-  const outlier = outliers[entry.sample];
-  const title = `An outlier: ${outlierRule} (mean ${short(mean)}, deviation ${short(deviation)})`;
   return (
     <>
       <b>{sample.sample}</b> {nameOf(entry)}
-      {outlier && (
-        <em class="outlier" title={title}>
-          outlier
-        </em>
-      )}
     </>
+  );
+}
+
+const isOutlier = (entry: Entry): boolean => entry.level === 0 && spread.value.outliers[entry.sample] === true;
+
+function OutlierBadge() {
+  const { mean, deviation } = spread.value;
+  const title = `An outlier: ${outlierRule} (mean ${short(mean)}, deviation ${short(deviation)})`;
+  return (
+    <em class="outlier" title={title}>
+      outlier
+    </em>
   );
 }
 
@@ -94,7 +98,7 @@ function TreeLine({ row }: { row: TreeRow }) {
       aria-expanded={parent ? open : undefined}
       aria-selected={selected.value?.id === id}
       data-entry={id}
-      data-outlier={level === 0 && spread.value.outliers[entry.sample] ? "true" : undefined}
+      data-outlier={isOutlier(entry) ? "true" : undefined}
       style={{ paddingLeft: `${4 + 12 * level}px`, height: `${rowHeight}px` }}
       onPointerEnter={() => hover(id)}
       onPointerLeave={() => hover(null)}
@@ -108,6 +112,7 @@ function TreeLine({ row }: { row: TreeRow }) {
       <span class="name">
         <Name entry={entry} />
       </span>
+      {isOutlier(entry) && <OutlierBadge />}
       <Value entry={entry} />
     </div>
   );

@@ -5,7 +5,7 @@ import { many } from "../app/format";
 import { alignWithPrimary, alignWithSelected, toggleKeepAligned } from "./align";
 import { pose, reset, toggleOrthographic } from "./camera";
 import { save, traceJson } from "./export";
-import { boxStyle, importanceAs, keepAligned, shown, type BoxStyle, type ImportanceAs } from "./options";
+import { filled, importanceAs, keepAligned, shown, type ImportanceAs } from "./options";
 import { answer, asking, sampleChoice } from "./probe";
 import { savePng, saveSvg } from "./RayCanvas";
 import { rayCount, selected } from "./selection";
@@ -192,27 +192,20 @@ export function Toolbar() {
         />
         <i />
         <Toggle of={shown.boxes} name="Boxes" title="Bounding boxes in the solids' colours (B)" />
+        <Toggle of={filled} name="Filled" title="Boxes filled instead of wire" />
         <Toggle of={shown.preview} name="Solids" title="Each solid by itself, without the set operations" />
         <Toggle of={shown.cloud} name="Cloud" title="Point cloud of the visible surfaces (K)" />
         <Toggle of={shown.icons} name="Icons" title="The camera and the lights" />
         <Toggle of={shown.axes} name="Axes" title="The world's axes" />
         <i />
         <select
-          aria-label="How boxes are drawn"
-          value={boxStyle.value}
-          onChange={(event) => (boxStyle.value = event.currentTarget.value as BoxStyle)}
-        >
-          <option value="wireframe">wire boxes</option>
-          <option value="filled">filled boxes</option>
-        </select>
-        <select
           aria-label="How a ray's importance is seen"
           value={importanceAs.value}
           onChange={(event) => (importanceAs.value = event.currentTarget.value as ImportanceAs)}
         >
-          <option value="width">importance: width</option>
-          <option value="opacity">importance: opacity</option>
-          <option value="nothing">importance: none</option>
+          <option value="width">weak rays thin</option>
+          <option value="opacity">weak rays faint</option>
+          <option value="nothing">all rays alike</option>
         </select>
       </div>
     </div>

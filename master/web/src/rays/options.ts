@@ -20,12 +20,8 @@ export const shown = {
 };
 export type Shown = keyof typeof shown;
 
-export type BoxStyle = "wireframe" | "filled";
-export const boxStyle = stored<BoxStyle>(
-  "rays-box-style",
-  "wireframe",
-  (v) => v === "wireframe" || v === "filled",
-);
+/// Boxes are filled too, not only their edges drawn.
+export const filled = remembered("filled", false);
 
 /// How a ray's importance is seen.
 export type ImportanceAs = "width" | "opacity" | "nothing";

@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import type * as THREE from "three";
 import { approach, isStill, pose } from "../camera";
 import { cloudState } from "../cloud";
-import { boxStyle, importanceAs, shown } from "../options";
+import { filled, importanceAs, shown } from "../options";
 import { distanceOf } from "../pose";
 import { box, boxOf, everything, scene } from "../scene";
 import { allSegments, outlierSegments, segmentsShown } from "../segments_shown";
@@ -85,9 +85,7 @@ export function openView(canvas: HTMLCanvasElement, settled: (still: boolean) =>
       scene.value && shown.boxes.value ? wireframes(scene.value.solids, boxOf(scene.value)) : null,
     ),
     inWorld(() =>
-      scene.value && shown.boxes.value && boxStyle.value === "filled"
-        ? filledBoxes(scene.value.solids)
-        : null,
+      scene.value && shown.boxes.value && filled.value ? filledBoxes(scene.value.solids) : null,
     ),
     inWorld(() =>
       scene.value && shown.preview.value ? preview(scene.value.solids, boxOf(scene.value)) : null,
