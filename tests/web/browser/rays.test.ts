@@ -1,10 +1,21 @@
 // The rays of a pixel: the same as `rayfarm trace` tells, as a tree, in 3D and as spans.
+import { createHash } from "node:crypto";
 import { join } from "node:path";
 import type { Page, Request } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { closeBrowser, openApp, screenshot, type App } from "../support/app";
 import { Farm, sceneFolder } from "../support/farm";
-import { downloaded, nextFrame, placeOf, seen, showLayer, type Color, type Pixel } from "../support/picture";
+import {
+  decoded,
+  downloaded,
+  expectColor,
+  nextFrame,
+  placeOf,
+  seen,
+  showLayer,
+  type Color,
+  type Pixel,
+} from "../support/picture";
 
 const size = { width: 80, height: 60 };
 const settings = ["--size", "80x60", "--spp", "4"];
@@ -157,14 +168,31 @@ describe("the 3D view", () => {
     await screenshot(page, "rays-cloud");
   });
 
-  it("turns with the arrow keys, and the layer stays", async () => {
+  it("moves and turns by keys, and R goes back; the picture stays as it is", async () => {
     await probe(ball);
     await page.locator(".rays").focus();
-    const before = (await page.locator(".rays-view canvas").screenshot()).toString("base64");
-    for (let step = 0; step < 3; ++step) await page.keyboard.press("ArrowRight");
-    await settled(ball);
-    expect((await page.locator(".rays-view canvas").screenshot()).toString("base64")).not.toBe(before);
-    expect(page.url()).not.toContain("layer=");
+    const look = async (): Promise<string> => {
+      await settled(ball);
+      await nextFrame(page);
+      return createHash("sha1").update(await page.locator(".rays-view canvas").screenshot()).digest("hex");
+    };
+    await page.keyboard.press("r"); // a view that keys move has a frame
+    const [whole, address] = [await look(), page.url()];
+    for (const key of ["w", "d", "q", "+", "ArrowLeft", "ArrowUp"]) {
+      await page.keyboard.press(key);
+      expect(await look(), key).not.toBe(whole);
+      await page.keyboard.press("r");
+      await expect.poll(look, { message: key }).toBe(whole);
+    }
+    expect(page.url()).toBe(address);
+  });
+
+  it("is saved as it is seen", async () => {
+    await probe(ball);
+    const { bytes } = await downloaded(page, () => saveAs("PNG"));
+    const [saved, shown] = [await decoded(page, bytes), await seen(page.locator(".rays-view canvas"))];
+    expect([saved.width, saved.height]).toEqual([shown.width, shown.height]);
+    for (let x = 0; x < shown.width; x += 7) expectColor(saved.at(x, shown.height / 3), shown.at(x, shown.height / 3));
   });
 
   it("marks the samples that stand out, unless that is toggled off", async () => {

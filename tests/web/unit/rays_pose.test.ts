@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Vec3 } from "../../../master/web/src/app/types";
+import { jumpBy, pose, setAspect, show } from "../../../master/web/src/rays/camera";
 import {
   alike,
   alongRay,
@@ -147,5 +148,26 @@ describe("picking", () => {
         5,
       ),
     ).toBe(3);
+  });
+});
+
+describe("the 3D view", () => {
+  const places: Vec3[] = [
+    [-4, 0, 0],
+    [4, 1, 2],
+  ];
+  const forward: Vec3 = [0, 0, 1];
+  const up: Vec3 = [0, 1, 0];
+
+  it("shows the whole scene in a canvas of any shape, until somebody moves it", () => {
+    show(places, forward, up);
+    for (const aspect of [2, 0.5]) {
+      setAspect(aspect);
+      expect(pose.value).toEqual(overview(places, forward, up, aspect));
+    }
+    jumpBy((from) => moved(from, 0.1, 0, 0));
+    const chosen = pose.value;
+    setAspect(1);
+    expect(pose.value).toBe(chosen);
   });
 });

@@ -151,6 +151,7 @@ export function LegendPanel() {
   const shown = shownOf(map);
   const palette = paletteOf(map, shown);
   const range = rangeOf(entry, map, shown);
+  const isKnown = shown.mode === "fixed" || (entry.message.value?.range ?? null) !== null;
   return (
     <Section title="Legend" aside={map.channels === 1 && map.unit}>
       <p class="quiet hint">{map.help}</p>
@@ -162,13 +163,13 @@ export function LegendPanel() {
           <div
             class="legend"
             role="img"
-            aria-label={`Colours from ${plain(range.low)} to ${plain(range.high)} ${map.unit}`}
+            aria-label={isKnown ? `Colours from ${plain(range.low)} to ${plain(range.high)} ${map.unit}` : "Colours"}
           >
             <Bar palette={palette} />
-            <Ticks map={map} range={range} shown={shown} />
+            {isKnown && <Ticks map={map} range={range} shown={shown} />}
           </div>
           <ScaleChoices map={map} shown={shown} />
-          <RangeChoice map={map} range={range} shown={shown} />
+          {isKnown && <RangeChoice map={map} range={range} shown={shown} />}
           <div class="buttons">
             <button title="Shift+R" onClick={() => resetMap(map)}>
               Reset

@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { selectedJob } from "../app/state";
 import { shownEntry } from "./compare";
+import { shownMap } from "./display";
 import { flipIsComing } from "./flip";
 import { attachGestures } from "./gestures";
 import { makeHands } from "./hands";
@@ -54,6 +55,11 @@ export function PictureCanvas() {
       />
       {message?.state === "making" && (
         <progress max={1} value={message.progress} aria-label="Progress of the layer" />
+      )}
+      {message?.state === "making" && !isReady && shownMap.value && (
+        <p class="picture-message late" role="status">
+          {shownMap.value.title} is being made; rendering goes first.
+        </p>
       )}
       {message?.state === "failed" && (
         <p class="picture-message" role="alert">

@@ -15,7 +15,7 @@ import { useSteady } from "./steady";
 
 interface Summary {
   figures: Figures[]; // a channel
-  low: number; // of all channels
+  low: number; // of all channels; above `high` while there are no values
   high: number;
   histograms: number[][]; // a channel; none without a finite value
 }
@@ -28,8 +28,9 @@ function summary(): Summary | null {
   if (!data || !area) return null;
   const channels = Array.from({ length: data.channels }, (_, c) => c);
   const figures = channels.map((c) => figuresOf(data, c, area));
-  const low = Math.min(...figures.map((each) => each.min));
-  const high = Math.max(...figures.map((each) => each.max));
+  const finite = figures.filter((each) => each.finite > 0);
+  const low = Math.min(...finite.map((each) => each.min));
+  const high = Math.max(...finite.map((each) => each.max));
   const map = shownMap.value;
   // As the map's colours are.
   const isLog = map !== null && palettes[map.scale].length > 0 && shownOf(map).log;
@@ -123,7 +124,7 @@ export function ValuesPanel() {
       aside={area ? `${area.width} × ${area.height} at ${area.x}, ${area.y}` : "whole picture"}
     >
       {data && data.histograms.length > 0 && <HistogramView summary={data} text={text} />}
-      {data && (
+      {data && data.low <= data.high && (
         <table class="figures">
           {names.length > 1 && (
             <thead>

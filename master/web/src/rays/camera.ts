@@ -19,11 +19,20 @@ let subject: Subject = {
 };
 /// Of the canvas: its width over its height.
 let aspect = 1.3;
-export const setAspect = (value: number): void => void (aspect = value);
-const home = (): Pose => overview(subject.places, subject.cameraDirection, subject.up, aspect);
+const overviewOf = (): Pose => overview(subject.places, subject.cameraDirection, subject.up, aspect);
 
-export const pose = signal<Pose>(home());
+export const pose = signal<Pose>(overviewOf());
 const goal = signal<Pose>(pose.value);
+/// The last overview; the goal as long as nobody has moved the view.
+let home = pose.value;
+const goHome = (go: (to: Pose) => void): void =>
+  go((home = { ...overviewOf(), orthographic: goal.value.orthographic }));
+
+/// An overview stays one in a canvas of another shape.
+export function setAspect(value: number): void {
+  aspect = value;
+  if (goal.value === home) goHome(jumpTo);
+}
 /// Differs from pose while the view is on its way.
 export const isStill = (): boolean => pose.value === goal.value;
 
@@ -53,10 +62,10 @@ export function approach(milliseconds: number): void {
 /// A new scene is seen whole at first.
 export function show(places: readonly Vec3[], cameraDirection: Vec3, up: Vec3): void {
   subject = { places, cameraDirection, up };
-  jumpTo({ ...home(), orthographic: goal.value.orthographic });
+  goHome(jumpTo);
 }
 
-export const reset = (): void => goTo({ ...home(), orthographic: goal.value.orthographic });
+export const reset = (): void => goHome(goTo);
 export const toggleOrthographic = (): void =>
   jumpBy((from) => ({ ...from, orthographic: !from.orthographic }));
 export const step = (right: number, up: number, forward: number): void =>

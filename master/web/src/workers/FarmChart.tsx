@@ -31,7 +31,12 @@ function chartIn(element: HTMLElement): uPlot {
       cursor: { show: false },
       padding: [8, 32, 0, 0],
       scales: {
-        x: { range: (_, __, last) => [last - shown, last] },
+        x: {
+          range(_, __, newest: number | null) {
+            const last = newest || Date.now() / 1000;
+            return [last - shown, last];
+          },
+        },
         y: { range: (_, __, most) => [0, Math.max(most, 100) * 1.05] },
       },
       axes: [

@@ -117,7 +117,10 @@ function Rate({ name }: { name: string }) {
   );
 }
 
-const Age = ({ worker }: { worker: Worker }) => <>{duration(Math.floor(ageOf(worker)))}</>;
+function Age({ worker }: { worker: Worker }) {
+  const seconds = Math.floor(ageOf(worker));
+  return <>{seconds < 60 ? `${seconds} s` : duration(seconds)}</>;
+}
 
 function Steering({ worker }: { worker: Worker }) {
   const { name, state } = worker;
