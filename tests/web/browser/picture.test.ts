@@ -89,6 +89,18 @@ describe("a pixel of the picture", () => {
   });
 });
 
+describe("a dense screen", () => {
+  it("has the same pixel under the pointer", async () => {
+    await app.close();
+    app = await openApp(farm.url, { density: 2 });
+    page = app.page;
+    await showLayer(page, job);
+    const box = (await canvas(page).boundingBox())!;
+    await page.mouse.click(box.x + box.width / 2 + 3, box.y + box.height / 2 + 3);
+    await page.locator('#picture-readout [data-x="40"][data-y="30"]').waitFor();
+  });
+});
+
 describe("zoom", () => {
   it("keeps the pixel under the pointer, and its level is shown", async () => {
     const pixel = some[3]!;

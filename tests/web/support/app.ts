@@ -15,9 +15,16 @@ export interface App {
   close(): Promise<void>;
 }
 
+interface View {
+  width?: number;
+  height?: number;
+  dark?: boolean;
+  density?: number; // screen pixels a CSS pixel
+}
+
 let browser: Browser | null = null;
 
-export async function openApp(url: string, view: { width?: number; height?: number; dark?: boolean } = {}): Promise<App> {
+export async function openApp(url: string, view: View = {}): Promise<App> {
   browser ??= await chromium.launch({
     executablePath: "/usr/bin/chromium",
     args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--enable-unsafe-swiftshader"],
@@ -25,6 +32,7 @@ export async function openApp(url: string, view: { width?: number; height?: numb
   const context = await browser.newContext({
     viewport: { width: view.width ?? 1366, height: view.height ?? 768 },
     colorScheme: view.dark ? "dark" : "light",
+    deviceScaleFactor: view.density ?? 1,
     acceptDownloads: true,
   });
   const page = await context.newPage();

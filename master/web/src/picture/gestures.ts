@@ -1,5 +1,6 @@
 // Pointer and wheel over the picture: drag pans, click probes, Ctrl or right drag probes along, Shift drag selects.
 import type { Point } from "./view";
+import { density } from "./view_state";
 
 /// What the gestures do; points are device pixels from the canvas' upper left corner.
 export interface Hands {
@@ -33,10 +34,9 @@ export function attachGestures(target: HTMLElement, hands: Hands): () => void {
   let drag: Drag | null = null;
   let start: Point = { x: 0, y: 0 };
 
-  const density = (): number => devicePixelRatio;
   const at = (event: MouseEvent): Point => {
     const box = target.getBoundingClientRect();
-    return { x: (event.clientX - box.left) * density(), y: (event.clientY - box.top) * density() };
+    return { x: (event.clientX - box.left) * density.peek(), y: (event.clientY - box.top) * density.peek() };
   };
 
   const kindOf = (event: PointerEvent, p: Point): Drag => {
@@ -75,7 +75,7 @@ export function attachGestures(target: HTMLElement, hands: Hands): () => void {
     hands.hover(p);
     target.classList.toggle("over-wipe", hands.overWipe(p));
     if (!last || !drag) return;
-    if (drag === "click or pan" && Math.hypot(p.x - start.x, p.y - start.y) >= threshold * density())
+    if (drag === "click or pan" && Math.hypot(p.x - start.x, p.y - start.y) >= threshold * density.peek())
       drag = "pan";
     if (drag === "pan") hands.pan({ x: p.x - last.x, y: p.y - last.y });
     else if (drag === "scrub") hands.scrub(p);

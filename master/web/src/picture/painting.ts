@@ -102,8 +102,9 @@ export function attachSize(target: HTMLElement): () => void {
     const exact = entry.devicePixelContentBoxSize?.[0];
     const width = exact?.inlineSize ?? Math.round(entry.contentRect.width * devicePixelRatio);
     const height = exact?.blockSize ?? Math.round(entry.contentRect.height * devicePixelRatio);
-    density.value = devicePixelRatio;
-    if (width > 0 && height > 0) screen.value = { width, height };
+    if (width <= 0 || height <= 0) return;
+    density.value = width / entry.contentRect.width; // a browser may not paint as densely as it says
+    screen.value = { width, height };
   });
   try {
     observer.observe(target, { box: "device-pixel-content-box" });
