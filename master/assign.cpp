@@ -8,6 +8,8 @@
 namespace rayfarm {
 namespace {
 
+constexpr std::size_t most_victims = 5;  // workers that one tile may cost
+
 std::uint64_t samples_in(const Work& work, const RenderSettings& settings) {
   const Tile tile = tile_at(size_of(settings), work.tile);
   std::uint64_t pixels = 0;
@@ -35,15 +37,23 @@ Job* Farm::State::next_job_for(const Worker& worker) {
 bool Farm::State::give_one(Worker& worker, FarmTime now) {
   Job* job = next_job_for(worker);
   if (job == nullptr || !has_room_for(worker, job->id)) return false;
-  if (!job->canvas && !start(*job, now)) return true;  // it failed; ask for the next
+  const std::uint32_t place = *job->open.begin();
+  JobFrame& frame = job->frames[place];
+  if (!frame.canvas && !start(*job, frame, now)) return true;  // it failed; ask for the next
 
-  Schedule& schedule = job->canvas->schedule;
+  Schedule& schedule = frame.canvas->schedule;
   const std::optional<Work> work =
       worker.info.kind == WorkerKind::local ? schedule.take_pass() : schedule.take_tile();
-  if (!schedule.has_waiting()) update_queue(*job);
-  introduce(worker, job->id, job->spec);
-  const Lease lease{job->id, work.value(), samples_in(*work, job->spec.settings), now};
+  if (!schedule.has_waiting()) {
+    job->open.erase(place);
+    update_queue(*job);
+  }
+  introduce(worker, *job, frame);
+  const Lease lease{job->id, frame.number, work.value(), samples_in(*work, job->spec.settings), now};
   assign(worker, LeaseId{++last_lease}, lease);
+  // The coming frame's scene travels while this one is rendered.
+  if (place + 1 < job->frames.size() && !job->frames[place + 1].ended)
+    introduce(worker, *job, job->frames[place + 1]);
   return true;
 }
 
@@ -60,21 +70,23 @@ void Farm::State::fill_all(FarmTime now) {
   }
 }
 
-bool Farm::State::start(Job& job, FarmTime now) {
+bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
   const Size size = size_of(job.spec.settings);
   try {
-    job.canvas.emplace(size);
+    frame.canvas.emplace(size);
   } catch (const std::bad_alloc&) {
-    job.message = "the master has no memory for a picture of " + std::to_string(size.width) + "x" +
-                  std::to_string(size.height) + " pixels; ask for a smaller --size";
-    warn(title_of(job) + " failed: " + job.message);
-    end(job, JobState::failed, now);
+    fail(job,
+         "the master has no memory for a picture of " + std::to_string(size.width) + "x" +
+             std::to_string(size.height) + " pixels; ask for a smaller --size",
+         now);
     return false;
   }
+  frame.started = now;
+  ++revision;
+  if (job.started) return true;
   job.state = JobState::running;
   job.started = now;
   job.pace.restart(now, 0);
-  ++revision;
   tell(title_of(job) + " started");
   return true;
 }
@@ -82,7 +94,8 @@ bool Farm::State::start(Job& job, FarmTime now) {
 void Farm::State::end_lease(Worker& worker, LeaseId id) {
   const Lease lease = take_lease(worker, id);
   Job& job = jobs.at(lease.job);
-  job.canvas->schedule.give_back(lease.work);
+  frame_at(job, lease.frame).canvas->schedule.give_back(lease.work);
+  job.open.insert(job.spec.frames->index_of(lease.frame).value());
   ++job.tiles_given_back;
   ++revision;
   update_queue(job);
@@ -107,17 +120,40 @@ void Farm::State::revoke_everywhere(JobId job) {
   for (auto& [id, worker] : workers) revoke(worker, job);
 }
 
+void Farm::State::blame(const Lease& oldest, NameId lost, FarmTime now) {
+  Job& job = jobs.at(oldest.job);
+  JobFrame& frame = frame_at(job, oldest.frame);
+  const bool is_first = frame.pixels_done == 0;
+  std::set<NameId>& victims =
+      is_first ? frame.canvas->lost_at_first : frame.canvas->lost_over[oldest.work.tile];
+  victims.insert(lost);
+  if (victims.size() < most_victims) return;
+  std::string who;
+  for (const NameId name : victims) who += (who.empty() ? "" : ", ") + names[static_cast<std::size_t>(name)];
+  revoke_everywhere(job.id);
+  fail(job,
+       "workers are lost again and again over " +
+           (is_first ? "" : "tile " + std::to_string(oldest.work.tile) + " of ") + title_of(job, frame) +
+           " (" + who + "); do they have too little memory for it?",
+       now);
+}
+
+void Farm::State::fail(Job& job, std::string why, FarmTime now) {
+  job.message = std::move(why);
+  warn(title_of(job) + " failed: " + job.message);
+  end(job, JobState::failed, now);
+}
+
 void Farm::State::end(Job& job, JobState state, FarmTime now) {
   job.state = state;
   job.ended = now;
-  --scenes.at(job.spec.scene_hash).unfinished_jobs;
-  if (state != JobState::done) {
-    job.spec.scene_bytes.reset();
-    job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
-  }
+  job.open.clear();
+  for (JobFrame& frame : job.frames)
+    if (!frame.ended) end(job, frame, now);
+  for (auto& [id, worker] : workers) worker.jobs.erase(job.id);
+  if (state != JobState::done) job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
   ++revision;
   update_queue(job);
-  for (auto& [id, worker] : workers) forget(worker, job.id);
   ended_jobs.push_back(job.id);
   drop_old_jobs();
   drop_old_films();

@@ -15,7 +15,8 @@ constexpr std::array<std::string_view, 3> worker_state_names{"idle", "busy", "dr
 
 /// The job that has the key of this submission already. Throws KeyTaken if it is not what is wanted.
 JobId same_job(const Job& job, const JobSpec& wanted) {
-  if (job.spec.scene_hash != wanted.scene_hash || job.spec.settings != wanted.settings)
+  if (job.frames.front().scene_hash != wanted.scene_hash || job.spec.settings != wanted.settings ||
+      job.spec.frames != wanted.frames)
     throw KeyTaken("the key " + wanted.key + " belongs to " + title_of(job) +
                    ", which has another scene or other settings; choose another key");
   return job.id;
@@ -59,6 +60,7 @@ WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
 
 void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
   Worker& worker = state_->workers.at(id);
+  auto oldest = worker.leases.empty() ? std::nullopt : std::optional(worker.leases.begin()->second);
   const std::size_t given_back = state_->end_leases(worker).size();
   const std::string what =
       ": " + reason + (given_back == 0 ? "" : "; " + count_of_tiles(given_back) + " given back");
@@ -66,7 +68,10 @@ void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
     state_->tell("worker " + worker.info.name + " left" + what, worker.info.name);
   else
     state_->warn("worker " + worker.info.name + " lost" + what, worker.info.name);
+  if (worker.is_stopping) oldest.reset();
+  const NameId name = worker.name;
   state_->workers.erase(id);
+  if (oldest) state_->blame(*oldest, name, now);
   state_->fill_all(now);
 }
 
@@ -127,27 +132,58 @@ std::optional<std::string> Farm::objection_to(const std::string& wanted_name) co
 // Jobs. ----------------------------------------------------------------------------------
 
 JobId Farm::submit(JobSpec spec, FarmTime now) {
+  if (!spec.frames) spec.frames = FrameRange{spec.settings.frame, spec.settings.frame, 1};
+  spec.settings.frame = spec.frames->first;
   check(spec.settings);
   if (const auto known = state_->job_by_key.find(spec.key);
       !spec.key.empty() && known != state_->job_by_key.end())
     return same_job(state_->jobs.at(known->second), spec);
+  if (state_->jobs.size() - state_->ended_jobs.size() >= state_->limits.unfinished_jobs)
+    throw FarmFull("the farm holds " + std::to_string(state_->limits.unfinished_jobs) +
+                   " unfinished jobs, and takes no more: wait for some to end, or cancel them");
 
-  state_->take_in_scene(spec);
-  const JobId id{++state_->last_job};
-  if (!spec.key.empty()) state_->job_by_key[spec.key] = id;
-  Job& job = state_->jobs[id];
-  job.id = id;
+  Job job;
+  job.id = JobId{state_->last_job + 1};
   job.spec = std::move(spec);
   job.state = job.spec.hold ? JobState::paused : JobState::waiting;
   job.submitted = now;
+  state_->add_frame(job, std::move(job.spec.scene_hash), std::move(job.spec.scene_bytes));
+  ++state_->last_job;
+  if (!job.spec.key.empty()) state_->job_by_key[job.spec.key] = job.id;
   ++state_->revision;
   const RenderSettings& settings = job.spec.settings;
-  state_->tell(title_of(job) + " submitted: " + std::to_string(settings.width) + "x" +
-               std::to_string(settings.height) + ", " + std::to_string(settings.spp) + " spp, priority " +
-               std::to_string(job.spec.priority) + (job.spec.hold ? ", on hold" : ""));
-  state_->update_queue(job);
+  const std::uint32_t frames = job.spec.frames->count();
+  state_->tell(title_of(job) + " submitted: " + (frames == 1 ? "" : std::to_string(frames) + " frames, ") +
+               std::to_string(settings.width) + "x" + std::to_string(settings.height) + ", " +
+               std::to_string(settings.spp) + " spp, priority " + std::to_string(job.spec.priority) +
+               (job.spec.hold ? ", on hold" : ""));
+  const JobId id = job.id;
+  state_->update_queue(state_->jobs[id] = std::move(job));
   state_->fill_all(now);
   return id;
+}
+
+bool Farm::add_frame(FrameId id, std::string scene_hash, SharedBytes scene, FarmTime now) {
+  const auto found = state_->jobs.find(id.job);
+  if (found == state_->jobs.end()) return false;
+  Job& job = found->second;
+  if (const JobFrame* known = frame_of(job, id.frame)) {
+    if (known->scene_hash == scene_hash) return true;
+    throw KeyTaken(title_of(job, *known) + " has another scene already");
+  }
+  if (has_ended(job)) return false;
+  const FrameRange& range = *job.spec.frames;
+  const auto next = static_cast<std::uint32_t>(job.frames.size());
+  if (range.index_of(id.frame) != next)
+    throw SettingsError(next == range.count()
+                            ? "all " + std::to_string(next) + " frames of " + title_of(job) + " have come"
+                            : "the next frame of " + title_of(job) + " is " + std::to_string(range.at(next)) +
+                                  ", not " + std::to_string(id.frame));
+  state_->add_frame(job, std::move(scene_hash), std::move(scene));
+  ++state_->revision;
+  state_->update_queue(job);
+  state_->fill_all(now);
+  return true;
 }
 
 bool Farm::pause(JobId id, FarmTime now) {
@@ -168,7 +204,7 @@ bool Farm::resume(JobId id, FarmTime now) {
   if (job == nullptr) return false;
   if (job->state != JobState::paused) return true;
   job->state = job->started ? JobState::running : JobState::waiting;
-  if (job->canvas) job->pace.restart(now, job->pixels_done);
+  if (job->started) job->pace.restart(now, job->pixels_done);
   ++state_->revision;
   state_->tell(title_of(*job) + " resumed");
   state_->update_queue(*job);
@@ -227,16 +263,33 @@ std::string Farm::name_of_worker(WorkerId id) const {
   return worker == state_->workers.end() ? std::string() : worker->second.info.name;
 }
 
-std::shared_ptr<const Film> Farm::film(JobId id) const {
+std::vector<FrameView> Farm::frames(JobId id, FarmTime now) const {
   const auto job = state_->jobs.find(id);
-  if (job == state_->jobs.end() || !job->second.canvas) return nullptr;
-  return job->second.canvas->film;
+  std::vector<FrameView> views;
+  if (job == state_->jobs.end()) return views;
+  for (std::uint32_t place = 0; place < job->second.spec.frames->count(); ++place)
+    views.push_back(view_of(job->second, place, now));
+  return views;
 }
 
-std::optional<Deliveries> Farm::deliveries(JobId id) const {
+std::optional<FrameView> Farm::frame(JobId id, std::optional<std::uint32_t> frame, FarmTime now) const {
   const auto job = state_->jobs.find(id);
-  if (job == state_->jobs.end() || !job->second.canvas) return std::nullopt;
-  const Canvas& canvas = *job->second.canvas;
+  if (job == state_->jobs.end()) return std::nullopt;
+  const FrameRange& range = *job->second.spec.frames;
+  const auto place = range.index_of(frame.value_or(range.first));
+  if (!place) return std::nullopt;
+  return view_of(job->second, *place, now);
+}
+
+std::shared_ptr<const Film> Farm::film(JobId id, std::optional<std::uint32_t> number) const {
+  const JobFrame* frame = state_->frame(id, number);
+  return frame && frame->canvas ? frame->canvas->film : nullptr;
+}
+
+std::optional<Deliveries> Farm::deliveries(JobId id, std::optional<std::uint32_t> number) const {
+  const JobFrame* frame = state_->frame(id, number);
+  if (!frame || !frame->canvas) return std::nullopt;
+  const Canvas& canvas = *frame->canvas;
   Deliveries all;
   all.tiles.reserve(canvas.deliveries.size());
   for (const auto& [by, taken] : canvas.deliveries)
@@ -246,9 +299,9 @@ std::optional<Deliveries> Farm::deliveries(JobId id) const {
   return all;
 }
 
-SharedBytes Farm::scene(JobId id) const {
-  const auto job = state_->jobs.find(id);
-  return job == state_->jobs.end() ? nullptr : job->second.spec.scene_bytes;
+SharedBytes Farm::scene(JobId id, std::optional<std::uint32_t> number) const {
+  const JobFrame* frame = state_->frame(id, number);
+  return frame ? frame->scene_bytes : nullptr;
 }
 
 std::uint64_t Farm::revision() const { return state_->revision; }

@@ -2,18 +2,22 @@
 // Time is passed in; messages leave through the function that a worker was added with; what an admin should
 // know comes out of take_events(). All calls are made from one thread.
 //
-// Invariants: each (job, tile, pass) is waiting, leased to exactly one worker, or done; it is committed
+// A job has one frame, or those of an animation, whose scenes come one after the other.
+//
+// Invariants: each (job, frame, tile, pass) is waiting, leased to exactly one worker, or done; it is committed
 // exactly once, under a live lease. A pass that comes again is compared with what was committed, never
 // written.
 //
 // Who gets what: of the jobs that have work waiting the one of highest priority, then the one submitted
-// first; of its tiles those given back, then the one nearest the centre. A worker holds a lease for each
-// thread and two more, and beyond that as many as keep it busy for 250 ms by its learned speed.
+// first; of its frames the first that has work waiting, so that the last tiles of one and the first of the next
+// are rendered side by side; of its tiles those given back, then the one nearest the centre. A worker holds a
+// lease for each thread until it has delivered something, then two more, and beyond that as many as keep it
+// busy for 250 ms by its learned speed. It is sent the scene of the coming frame, too.
 //
-// Memory: a job costs its scene, which jobs of the same hash share; from its first assignment also 12 bytes a
-// pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 34 bytes a tile. An ended job keeps its
-// film, which is fetched later, and one that is done also its scene, which says how the picture came about, as
-// long as FarmLimits say. Of all workers that there were, the first 10,000 names are kept, to say whose pixels
+// Memory: a frame costs its scene, which frames of the same hash share; from its first assignment also 12 bytes
+// a pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 34 bytes a tile. A frame that is done,
+// or whose job has ended, keeps its film, which is fetched later, and one that is done also its scene, which
+// says how the picture came about, as long as FarmLimits say. Of all workers that there were, the first 10,000 names are kept, to say whose pixels
 // they are.
 #pragma once
 #include <array>
@@ -30,6 +34,7 @@
 #include "common/net/messages.h"
 #include "common/render/film.h"
 #include "master/farm_time.h"
+#include "master/frame_range.h"
 
 namespace rayfarm {
 
@@ -52,21 +57,23 @@ struct JobSpec {
   std::string name;
   std::string output;  // fetch's default file, on the submitter's PC
   std::string scene_hash;
-  SharedBytes scene_bytes;  // encode_scene()
+  SharedBytes scene_bytes;  // encode_scene(); of the first frame
   RenderSettings settings;
-  int priority = 50;  // 0..99, higher first; equals in order of submission
-  bool hold = false;  // starts paused
-  std::string key;    // submit --id: the same key gives the same job again until that fails; empty: none
+  std::optional<FrameRange> frames;  // none: the one of the settings. The other scenes come by add_frame()
+  int priority = 50;                 // 0..99, higher first; equals in order of submission
+  bool hold = false;                 // starts paused
+  std::string key;  // submit --id: the same key gives the same job again until that fails; empty: none
   std::map<std::string, std::string> parameters;  // that its script was given, as far as the submitter says
 };
 
-/// What of ended jobs is kept; those that ended first go first. A job that loses its film loses its scene and
-/// its key, too. And how much may be unfinished: beyond that, nothing is taken in.
+/// What of ended jobs and of frames that are done is kept; those that ended first go first. A frame that loses its
+/// film loses its scene, too, and its job the key. And how much may be unfinished: beyond that, nothing is taken
+/// in.
 struct FarmLimits {
   std::uint64_t film_bytes = std::uint64_t{2} << 30;  // all films and scenes; the newest stay, however big
   std::size_t jobs = 1000;                            // at least 1; the others are as if they had never been
   std::size_t unfinished_jobs = 10'000;
-  std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished jobs, each scene once
+  std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished frames, each scene once
 };
 
 /// A job as people see it.
@@ -76,8 +83,12 @@ struct JobView {
   std::string message;  // why it failed, why a worker gave it back, that its picture is gone
   JobState state = JobState::waiting;
   int priority = 0;
-  RenderSettings settings;
+  RenderSettings settings;  // of the first frame; the others differ in their numbers
   std::map<std::string, std::string> parameters;
+  FrameRange frames;
+  std::uint32_t frames_sent = 0;               // whose scenes have come, the first ones
+  std::uint32_t frames_done = 0;               // also those whose pictures are no longer kept
+  std::optional<std::uint32_t> current_frame;  // the first that is not done
   std::uint64_t pixels_done = 0, pixels_total = 0;
   RayCounters counters;                // of committed passes
   FarmTime submitted{}, waited{};      // waited: from then to the first assignment, or to its end without one
@@ -85,6 +96,17 @@ struct JobView {
   FarmTime thread_time{};              // that its deliveries took, each on one thread
   std::optional<FarmTime> eta;         // remaining; none before there is something to learn from
   std::uint64_t tiles_given_back = 0;  // leases that ended without a result
+};
+
+/// One of its frames.
+struct FrameView {
+  std::uint32_t frame = 0;
+  JobState state = JobState::waiting;  // that of the job unless it is done, or waits
+  std::string scene_hash;              // empty while it has not come
+  bool is_kept = false;                // there is a film
+  std::uint64_t pixels_done = 0, pixels_total = 0;
+  RayCounters counters;
+  FarmTime waited{}, elapsed{}, thread_time{};  // as of a job
 };
 
 /// Who delivered a picture's pixels, and what they took.
@@ -125,9 +147,15 @@ struct WorkerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The key of a submission belongs to a job with another scene or other settings; the message names it.
+/// The key of a submission belongs to a job with another scene or other settings, or a frame has another scene
+/// already; the message names it.
 struct KeyTaken : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// As much is unfinished as FarmLimits allow; later there will be room again.
+struct FarmFull : SettingsError {
+  using SettingsError::SettingsError;
 };
 
 class Farm {
@@ -152,8 +180,11 @@ class Farm {
   /// stopping and gets nothing more; what it still holds it may finish.
   void receive(WorkerId worker, GiveBack given, FarmTime now);
 
-  /// Throws SettingsError for settings that cannot be rendered and when too much is unfinished; KeyTaken.
+  /// Throws SettingsError for settings that cannot be rendered, FarmFull, KeyTaken.
   JobId submit(JobSpec spec, FarmTime now);
+  /// The scene of the next frame; again the same scene of one that has come already is no fault. False: no such
+  /// job, or it has ended. Throws SettingsError when another frame is next, FarmFull, KeyTaken.
+  bool add_frame(FrameId id, std::string scene_hash, SharedBytes scene, FarmTime now);
   // These answer false when there is no such job, or it has ended. Pausing and cancelling revoke at once.
   bool pause(JobId job, FarmTime now);
   bool resume(JobId job, FarmTime now);
@@ -175,14 +206,18 @@ class Farm {
   std::vector<WorkerView> workers() const;        // in order of joining
   std::vector<std::string> banned() const;        // names
   std::string name_of_worker(WorkerId id) const;  // empty: not here
-  /// The film of a job; null when there is no such job, nothing of it was assigned yet, or it is no longer
-  /// kept. Grows while the job runs.
-  std::shared_ptr<const Film> film(JobId id) const;
+  /// All that it will have; empty: no such job.
+  std::vector<FrameView> frames(JobId id, FarmTime now) const;
+  // Of a frame of a job; of the first, when none is named.
+  std::optional<FrameView> frame(JobId id, std::optional<std::uint32_t> frame, FarmTime now) const;
+  /// Null when there is no such frame, nothing of it was assigned yet, or it is no longer kept. Grows while the
+  /// frame is rendered.
+  std::shared_ptr<const Film> film(JobId id, std::optional<std::uint32_t> frame = {}) const;
   /// None when there is no film.
-  std::optional<Deliveries> deliveries(JobId id) const;
-  /// The encoded scene of a job that goes on or is done; null when there is no such job, it was cancelled or
-  /// failed, or its film is no longer kept.
-  SharedBytes scene(JobId id) const;
+  std::optional<Deliveries> deliveries(JobId id, std::optional<std::uint32_t> frame = {}) const;
+  /// The encoded scene of a frame that goes on or is done; null when there is no such frame, its job was
+  /// cancelled or failed before it was done, or its film is no longer kept.
+  SharedBytes scene(JobId id, std::optional<std::uint32_t> frame = {}) const;
   /// Grows with every change of a job: to wait for news.
   std::uint64_t revision() const;
 

@@ -17,6 +17,11 @@ Job* Farm::State::living_job(JobId id) {
   return job == jobs.end() || has_ended(job->second) ? nullptr : &job->second;
 }
 
+const JobFrame* Farm::State::frame(JobId id, std::optional<std::uint32_t> number) const {
+  const auto job = jobs.find(id);
+  return job == jobs.end() ? nullptr : frame_of(job->second, number);
+}
+
 Worker* Farm::State::worker_named(std::string_view name) {
   const auto found = std::ranges::find_if(workers, [&](const auto& w) { return w.second.info.name == name; });
   return found == workers.end() ? nullptr : &found->second;
@@ -40,50 +45,85 @@ NameId Farm::State::id_of_name(const std::string& name) {
   return id;
 }
 
-void Farm::State::take_in_scene(JobSpec& spec) {
-  if (jobs.size() - ended_jobs.size() >= limits.unfinished_jobs)
-    throw SettingsError("the farm holds " + std::to_string(limits.unfinished_jobs) +
-                        " unfinished jobs, and takes no more: wait for some to end, or cancel them");
-  std::erase_if(scenes, [](const auto& scene) { return scene.second.bytes.expired(); });
-  const auto known = scenes.find(spec.scene_hash);
-  if (known != scenes.end()) spec.scene_bytes = known->second.bytes.lock();
+SharedBytes Farm::State::take_in_scene(const std::string& hash, SharedBytes bytes) {
+  const auto known = scenes.find(hash);
+  if (known != scenes.end()) bytes = known->second.bytes.lock();
+  const bool is_new = known == scenes.end() || known->second.unfinished == 0;
+  const std::uint64_t after = unfinished_scene_bytes + (is_new ? bytes->size() : 0);
+  if (is_new && after > limits.scene_bytes)
+    throw FarmFull("the scenes of unfinished jobs would take " + std::to_string(after) + " bytes, of " +
+                   std::to_string(limits.scene_bytes) + ": wait for some to end, or cancel them");
+  unfinished_scene_bytes = after;
+  SharedScene& scene = scenes[hash];
+  scene.bytes = bytes;
+  ++scene.unfinished;
+  return bytes;
+}
 
-  std::uint64_t bytes = spec.scene_bytes->size();
-  for (const auto& [hash, scene] : scenes)
-    if (scene.unfinished_jobs > 0 && hash != spec.scene_hash) bytes += scene.bytes.lock()->size();
-  const bool is_new = known == scenes.end() || known->second.unfinished_jobs == 0;
-  if (is_new && bytes > limits.scene_bytes)
-    throw SettingsError("the scenes of unfinished jobs would take " + std::to_string(bytes) + " bytes, of " +
-                        std::to_string(limits.scene_bytes) + ": wait for some to end, or cancel them");
-  SharedScene& scene = scenes[spec.scene_hash];
-  scene.bytes = spec.scene_bytes;
-  ++scene.unfinished_jobs;
+void Farm::State::release_unfinished(const JobFrame& frame) {
+  const auto scene = scenes.find(frame.scene_hash);
+  if (--scene->second.unfinished > 0) return;
+  unfinished_scene_bytes -= frame.scene_bytes->size();
+  if (scene->second.kept == 0) scenes.erase(scene);
+}
+
+void Farm::State::add_frame(Job& job, std::string hash, SharedBytes scene) {
+  JobFrame frame;
+  frame.scene_bytes = take_in_scene(hash, std::move(scene));
+  frame.scene_hash = std::move(hash);
+  const auto place = static_cast<std::uint32_t>(job.frames.size());
+  frame.number = job.spec.frames->at(place);
+  job.frames.push_back(std::move(frame));
+  job.open.insert(place);
+}
+
+void Farm::State::end(Job& job, JobFrame& frame, FarmTime now) {
+  frame.ended = now;
+  for (auto& [id, worker] : workers) forget(worker, {job.id, frame.number});
+  const bool is_done = frame.canvas && frame.canvas->film->is_complete();
+  SharedScene& scene = scenes.at(frame.scene_hash);
+  if (is_done && scene.kept++ == 0) bytes_kept += frame.scene_bytes->size();
+  release_unfinished(frame);
+  if (!is_done) frame.scene_bytes.reset();
+  if (!frame.canvas) return;
+  bytes_kept += film_bytes(frame);
+  ended_frames.push_back({job.id, frame.number});
+}
+
+void Farm::State::drop_picture(Job& job, JobFrame& frame) {
+  bytes_kept -= film_bytes(frame);
+  frame.canvas.reset();
+  if (frame.scene_bytes) {
+    const auto scene = scenes.find(frame.scene_hash);
+    if (--scene->second.kept == 0) {
+      bytes_kept -= frame.scene_bytes->size();
+      if (scene->second.unfinished == 0) scenes.erase(scene);
+    }
+    frame.scene_bytes.reset();
+  }
+  ++job.frames_dropped;
+  ++revision;
 }
 
 void Farm::State::drop_old_jobs() {
   for (; ended_jobs.size() > limits.jobs; ended_jobs.pop_front()) {
     const auto oldest = jobs.find(ended_jobs.front());
+    for (JobFrame& frame : oldest->second.frames)
+      if (frame.canvas) drop_picture(oldest->second, frame);
     job_by_key.erase(oldest->second.spec.key);
     jobs.erase(oldest);
   }
 }
 
 void Farm::State::drop_old_films() {
-  std::uint64_t kept = 0;
-  std::set<std::string_view> scenes_kept;  // hashes
-  for (auto id = ended_jobs.rbegin(); id != ended_jobs.rend(); ++id) {
-    Job& job = jobs.at(*id);
-    if (!job.canvas) continue;
-    const bool is_newest = kept == 0;
-    kept += film_bytes(job);
-    if (job.spec.scene_bytes && scenes_kept.insert(job.spec.scene_hash).second)
-      kept += job.spec.scene_bytes->size();
-    if (is_newest || kept <= limits.film_bytes) continue;
-    job.canvas.reset();
-    job.spec.scene_bytes.reset();
-    job_by_key.erase(std::exchange(job.spec.key, {}));
-    job.message += (job.message.empty() ? "" : "; ") + std::string("its picture is no longer kept");
-    ++revision;
+  for (; bytes_kept > limits.film_bytes && ended_frames.size() > 1; ended_frames.pop_front()) {
+    const auto [id, number] = ended_frames.front();
+    const auto job = jobs.find(id);
+    if (job == jobs.end()) continue;
+    JobFrame& frame = frame_at(job->second, number);
+    if (!frame.canvas) continue;
+    drop_picture(job->second, frame);
+    job_by_key.erase(std::exchange(job->second.spec.key, {}));
   }
 }
 

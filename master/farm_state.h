@@ -18,13 +18,17 @@ struct Farm::State {
   FarmLimits limits;
   std::map<JobId, Job> jobs;
   std::deque<JobId> ended_jobs;  // all of them, in the order of their ends
+  // In the order of their ends; all that are kept, and some that no longer are.
+  std::deque<FrameId> ended_frames;
+  std::uint64_t bytes_kept = 0;  // of ended frames
   std::map<std::string, JobId> job_by_key;
-  /// One that jobs share.
+  /// One that frames share.
   struct SharedScene {
     SharedBytes::weak_type bytes;
-    std::size_t unfinished_jobs = 0;
+    std::size_t unfinished = 0, kept = 0;  // frames
   };
-  std::map<std::string, SharedScene> scenes;  // by hash
+  std::map<std::string, SharedScene> scenes;  // by hash: exactly those that frames have
+  std::uint64_t unfinished_scene_bytes = 0;
   std::map<WorkerId, Worker> workers;
   std::set<std::string, std::less<>> drained_names, banned_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those too many.
@@ -44,12 +48,16 @@ struct Farm::State {
   }
 
   Job* living_job(JobId id);
+  const JobFrame* frame(JobId id, std::optional<std::uint32_t> number) const;
   Worker* worker_named(std::string_view name);
   std::string unique_name(const std::string& wanted) const;
   NameId id_of_name(const std::string& name);
 
-  /// Makes the job share its scene with others of the same hash; throws SettingsError when the farm is full.
-  void take_in_scene(JobSpec& spec);
+  /// The bytes that frames of this hash share; counted as those of an unfinished one. Throws FarmFull.
+  SharedBytes take_in_scene(const std::string& hash, SharedBytes bytes);
+  void release_unfinished(const JobFrame& frame);
+  /// Its scene counts as unfinished from now on.
+  void add_frame(Job& job, std::string hash, SharedBytes scene);
 
   // Giving work out.
   Job* next_job_for(const Worker& worker);
@@ -57,7 +65,7 @@ struct Farm::State {
   bool give_one(Worker& worker, FarmTime now);
   void fill(Worker& worker, FarmTime now);
   void fill_all(FarmTime now);
-  bool start(Job& job, FarmTime now);
+  bool start(Job& job, JobFrame& frame, FarmTime now);
 
   // Taking it back; none of them gives it out again.
   void end_lease(Worker& worker, LeaseId id);
@@ -66,8 +74,12 @@ struct Farm::State {
   void revoke(Worker& worker, JobId job);
   void revoke_everywhere(JobId job);
 
+  /// A worker that was lost may have died of the lease that it held longest.
+  void blame(const Lease& oldest, NameId lost, FarmTime now);
+
   // Results.
   void deliver(Worker& worker, const Lease& lease, const Result& result, FarmTime now);
+  void finish(Job& job, JobFrame& frame, FarmTime now);
   void compare_late(Worker& worker, const Result& result);
   void refuse(Worker& worker, Job& job, const std::string& reason, FarmTime now);
 
@@ -75,8 +87,12 @@ struct Farm::State {
   void update_queue(const Job& job);
   /// Other jobs that ended may be dropped.
   void end(Job& job, JobState state, FarmTime now);
+  void fail(Job& job, std::string why, FarmTime now);
+  /// Is done, or its job has ended; what of it stays is counted.
+  void end(Job& job, JobFrame& frame, FarmTime now);
   void drop_old_jobs();
   void drop_old_films();
+  void drop_picture(Job& job, JobFrame& frame);
 };
 
 }  // namespace rayfarm

@@ -22,13 +22,29 @@ bool has_ended(const Job& job) {
   return job.state == JobState::done || job.state == JobState::cancelled || job.state == JobState::failed;
 }
 
-std::uint64_t film_bytes(const Job& job) {
-  return std::uint64_t{job.spec.settings.width} * job.spec.settings.height * 3 * sizeof(float);
+std::uint64_t film_bytes(const JobFrame& frame) {
+  const Size size = frame.canvas->film->size();
+  return std::uint64_t{size.width} * size.height * 3 * sizeof(float);
 }
 
 bool wants_workers(const Job& job) {
-  if (job.state != JobState::waiting && job.state != JobState::running) return false;
-  return !job.canvas || job.canvas->schedule.has_waiting();
+  return (job.state == JobState::waiting || job.state == JobState::running) && !job.open.empty();
+}
+
+const JobFrame* frame_of(const Job& job, std::optional<std::uint32_t> number) {
+  const FrameRange& range = job.spec.frames.value();
+  const auto place = range.index_of(number.value_or(range.first));
+  return place && *place < job.frames.size() ? &job.frames[*place] : nullptr;
+}
+
+JobFrame& frame_at(Job& job, std::uint32_t number) {
+  return job.frames.at(job.spec.frames->index_of(number).value());
+}
+
+RenderSettings settings_of(const Job& job, const JobFrame& frame) {
+  RenderSettings settings = job.spec.settings;
+  settings.frame = frame.number;
+  return settings;
 }
 
 std::string title_of(const Job& job) {
@@ -36,21 +52,52 @@ std::string title_of(const Job& job) {
   return job.spec.name.empty() ? number : number + " (" + job.spec.name + ")";
 }
 
+std::string title_of(const Job& job, const JobFrame& frame) {
+  if (job.spec.frames->count() == 1) return title_of(job);
+  return "frame " + std::to_string(frame.number) + " of " + title_of(job);
+}
+
 std::string count_of_tiles(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " tile" : " tiles");
 }
+
+namespace {
+
+std::uint64_t pixels_of(const RenderSettings& settings) {
+  return std::uint64_t{settings.width} * settings.height;
+}
+
+/// With what is no longer kept of it.
+std::string message_of(const Job& job) {
+  if (job.frames_dropped == 0) return job.message;
+  const std::string lost =
+      job.spec.frames->count() == 1
+          ? "its picture is no longer kept"
+          : "of its pictures the " + std::to_string(job.frames_dropped) + " oldest are no longer kept";
+  return job.message.empty() ? lost : job.message + "; " + lost;
+}
+
+bool is_done(const Job& job, const JobFrame& frame) {
+  return frame.pixels_done == pixels_of(job.spec.settings);
+}
+
+}  // namespace
 
 JobView view_of(const Job& job, FarmTime now) {
   const JobSpec& spec = job.spec;
   JobView view;
   view.id = job.id;
-  view.name = spec.name, view.output = spec.output, view.scene_hash = spec.scene_hash;
-  view.message = job.message;
+  view.name = spec.name, view.output = spec.output, view.scene_hash = job.frames.front().scene_hash;
+  view.message = message_of(job);
   view.state = job.state;
   view.priority = spec.priority;
   view.settings = spec.settings, view.parameters = spec.parameters;
+  view.frames = *spec.frames;
+  view.frames_sent = static_cast<std::uint32_t>(job.frames.size());
+  view.frames_done = job.frames_done;
+  if (job.first_unfinished < spec.frames->count()) view.current_frame = spec.frames->at(job.first_unfinished);
   view.pixels_done = job.pixels_done;
-  view.pixels_total = std::uint64_t{spec.settings.width} * spec.settings.height;
+  view.pixels_total = pixels_of(spec.settings) * spec.frames->count();
   view.counters = job.counters;
   view.submitted = job.submitted;
   view.waited = job.started.value_or(job.ended.value_or(now)) - job.submitted;
@@ -58,6 +105,27 @@ JobView view_of(const Job& job, FarmTime now) {
   if (job.started) view.elapsed = job.ended.value_or(now) - *job.started;
   if (job.state == JobState::running) view.eta = job.pace.time_for(view.pixels_total - view.pixels_done, now);
   view.tiles_given_back = job.tiles_given_back;
+  return view;
+}
+
+FrameView view_of(const Job& job, std::uint32_t place, FarmTime now) {
+  FrameView view;
+  view.frame = job.spec.frames->at(place);
+  view.pixels_total = pixels_of(job.spec.settings);
+  view.state = job.state == JobState::running ? JobState::waiting : job.state;
+  view.waited = job.ended.value_or(now) - job.submitted;
+  if (place >= job.frames.size()) return view;
+
+  const JobFrame& frame = job.frames[place];
+  if (frame.canvas) view.state = job.state;
+  if (is_done(job, frame)) view.state = JobState::done;
+  view.scene_hash = frame.scene_hash;
+  view.is_kept = frame.canvas.has_value();
+  view.pixels_done = frame.pixels_done;
+  view.counters = frame.counters, view.thread_time = frame.thread_time;
+  if (!frame.started) return view;
+  view.waited = *frame.started - job.submitted;
+  view.elapsed = frame.ended.value_or(now) - *frame.started;
   return view;
 }
 
@@ -79,24 +147,27 @@ std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size f
   return std::nullopt;
 }
 
-void commit(Job& job, const Delivery& delivery, FarmTime now) {
-  Canvas& canvas = *job.canvas;
+void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
+  Canvas& canvas = *frame.canvas;
   Canvas::TileDeliveries& tile = canvas.deliveries[delivery.work.tile];
   const std::uint32_t by = place_of(delivery.by, canvas.deliverers);
   for (const PassImage& image : delivery.images) {
     canvas.film->put(delivery.work.tile, image);
     tile.by[image.pass] = by;
+    frame.counters += image.counters;
     job.counters += image.counters;
   }
   tile.taken += delivery.taken;
+  frame.thread_time += delivery.taken;
   job.thread_time += delivery.taken;
-  job.pixels_done = canvas.film->pixels_done();
+  job.pixels_done += canvas.film->pixels_done() - frame.pixels_done;
+  frame.pixels_done = canvas.film->pixels_done();
   canvas.schedule.finish(delivery.work);
   job.pace.advance(now, job.pixels_done);
 }
 
-std::optional<NameId> contradicted(const Job& job, std::uint32_t tile, const std::vector<PassImage>& images) {
-  const Canvas& canvas = *job.canvas;
+std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile,
+                                   const std::vector<PassImage>& images) {
   for (const PassImage& image : images) {
     if (!(canvas.schedule.done(tile) & 1u << image.pass)) continue;
     const std::vector<float> committed = canvas.film->pass_pixels(tile, image.pass);

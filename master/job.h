@@ -2,8 +2,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,7 @@ namespace rayfarm {
 /// A worker's name by its number in the farm's list: whom a pass came from, also when the worker is gone.
 enum class NameId : std::uint32_t {};
 
-/// The big part of a job, made at its first assignment.
+/// The big part of a frame, made at its first assignment.
 struct Canvas {
   explicit Canvas(Size size)
       : film(std::make_shared<Film>(size)), schedule(size), deliveries(tile_count(size)) {}
@@ -29,17 +31,34 @@ struct Canvas {
 
   std::shared_ptr<Film> film;
   Schedule schedule;
-  std::vector<TileDeliveries> deliveries;  // by tile
-  std::vector<NameId> deliverers;          // in the order of their first deliveries
+  std::vector<TileDeliveries> deliveries;               // by tile
+  std::vector<NameId> deliverers;                       // in the order of their first deliveries
+  std::set<NameId> lost_at_first;                       // workers, before any pixel was there
+  std::map<std::uint32_t, std::set<NameId>> lost_over;  // later, by the tile that they held longest
+};
+
+/// Whose scene has come.
+struct JobFrame {
+  std::uint32_t number = 0;
+  std::string scene_hash;
+  SharedBytes scene_bytes;  // null when it is no longer needed
+  std::optional<Canvas> canvas;
+  std::uint64_t pixels_done = 0;
+  RayCounters counters;
+  FarmTime thread_time{};
+  std::optional<FarmTime> started, ended;
 };
 
 struct Job {
   JobId id{};
-  JobSpec spec;
+  JobSpec spec;  // without its scene; its frames are there
   JobState state = JobState::waiting;
   std::string message;
-  std::optional<Canvas> canvas;
-  std::uint64_t pixels_done = 0;  // as the film says while there is one
+  std::vector<JobFrame> frames;  // in the order of spec.frames
+  std::set<std::uint32_t> open;  // places in `frames`: exactly those that have work waiting
+  std::uint32_t frames_done = 0, frames_dropped = 0;
+  std::uint32_t first_unfinished = 0;  // place in `frames`, or after them
+  std::uint64_t pixels_done = 0;       // these three: sums over the frames
   RayCounters counters;
   FarmTime thread_time{};
   Pace pace;
@@ -49,16 +68,24 @@ struct Job {
 };
 
 Size size_of(const RenderSettings& settings);
-bool has_ended(const Job& job);
 /// What its film takes, once all pixels are there.
-std::uint64_t film_bytes(const Job& job);
+std::uint64_t film_bytes(const JobFrame& frame);
+bool has_ended(const Job& job);
 /// May be worked on, and some of it is waiting.
 bool wants_workers(const Job& job);
+/// The first frame when none is named; null when its scene has not come, or there is none.
+const JobFrame* frame_of(const Job& job, std::optional<std::uint32_t> number);
+JobFrame& frame_at(Job& job, std::uint32_t number);
+RenderSettings settings_of(const Job& job, const JobFrame& frame);
 /// As people know it: job 7 (sphere_flake).
 std::string title_of(const Job& job);
+/// Of an animation: frame 12 of job 7 (sphere_flake).
+std::string title_of(const Job& job, const JobFrame& frame);
 /// 1 tile, 2 tiles.
 std::string count_of_tiles(std::size_t count);
 JobView view_of(const Job& job, FarmTime now);
+/// Of the frame in this place, also of one whose scene has not come.
+FrameView view_of(const Job& job, std::uint32_t place, FarmTime now);
 
 /// Why the images are not those that the work asks for; nothing when they are.
 std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size film, const Work& work);
@@ -69,9 +96,10 @@ struct Delivery {
   NameId by{};
   FarmTime taken{};
 };
-/// Takes it into the film.
-void commit(Job& job, const Delivery& delivery, FarmTime now);
+/// Takes it into the frame's film.
+void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now);
 /// Who delivered other pixels than these, if anybody did. Passes not there yet are not compared.
-std::optional<NameId> contradicted(const Job& job, std::uint32_t tile, const std::vector<PassImage>& images);
+std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile,
+                                   const std::vector<PassImage>& images);
 
 }  // namespace rayfarm

@@ -14,8 +14,9 @@ namespace {
 }
 
 std::optional<std::string> lease_fault_of(const Result& result, const Lease& lease, const Job& job) {
-  if (result.job != lease.job || result.tile != lease.work.tile)
-    return "its lease is for tile " + std::to_string(lease.work.tile) + " of " + title_of(job);
+  if (result.job != lease.job || result.frame != lease.frame || result.tile != lease.work.tile)
+    return "its lease is for tile " + std::to_string(lease.work.tile) + " of " +
+           title_of(job, *frame_of(job, lease.frame));
   return fault_of(result.images, size_of(job.spec.settings), lease.work);
 }
 
@@ -50,13 +51,22 @@ void Farm::receive(WorkerId id, Result result, FarmTime now) {
 
 void Farm::State::deliver(Worker& worker, const Lease& lease, const Result& result, FarmTime now) {
   Job& job = jobs.at(lease.job);
+  JobFrame& frame = frame_at(job, lease.frame);
   const FarmTime taken = believed_time(lease, result.seconds, now);
-  commit(job, {lease.work, result.images, worker.name, taken}, now);
+  commit(job, frame, {lease.work, result.images, worker.name, taken}, now);
   learn_speed(worker, lease, taken);
   ++worker.tiles;
   worker.pixels += lease.samples / job.spec.settings.spp;
   ++revision;
-  if (!job.canvas->film->is_complete()) return;
+  if (frame.canvas->film->is_complete()) finish(job, frame, now);
+}
+
+void Farm::State::finish(Job& job, JobFrame& frame, FarmTime now) {
+  end(job, frame, now);
+  ++job.frames_done;
+  while (job.first_unfinished < job.frames.size() && job.frames[job.first_unfinished].ended)
+    ++job.first_unfinished;
+  if (job.frames_done < job.spec.frames->count()) return drop_old_films();
   tell(title_of(job) + " done in " + seconds(now - *job.started));
   end(job, JobState::done, now);
 }
@@ -65,20 +75,22 @@ void Farm::State::compare_late(Worker& worker, const Result& result) {
   if (static_cast<std::uint64_t>(result.lease) > last_lease) tell_off(result, "no such lease was given");
   if (static_cast<std::uint64_t>(result.job) > last_job) tell_off(result, "there never was such a job");
   const auto found = jobs.find(result.job);
-  const bool is_gone = found == jobs.end() || (has_ended(found->second) && !found->second.canvas);
-  if (is_gone) return;  // there is nothing left to compare it with
+  if (found == jobs.end()) return;  // there is nothing left to compare it with
   const Job& job = found->second;
-  if (!job.canvas) tell_off(result, "nothing of that job was given");
+  const JobFrame* frame = frame_of(job, result.frame);
+  if (!frame) tell_off(result, "there never was such a frame");
+  if (!frame->canvas && frame->ended) return;  // nor here
+  if (!frame->canvas) tell_off(result, "nothing of that frame was given");
   const Size film = size_of(job.spec.settings);
   if (result.tile >= tile_count(film)) tell_off(result, "the picture has no such tile");
   if (const auto fault = fault_of(result.images, film, {result.tile, passes_in(result.images)}))
     tell_off(result, *fault);
 
-  const std::optional<NameId> other = contradicted(job, result.tile, result.images);
+  const std::optional<NameId> other = contradicted(*frame->canvas, result.tile, result.images);
   if (!other || worker.was_contradicted) return;
   worker.was_contradicted = true;  // one line for each connection: a broken machine must not flood the log
   warn("workers " + worker.info.name + " and " + names[static_cast<std::size_t>(*other)] +
-       " differ in the pixels of tile " + std::to_string(result.tile) + " of " + title_of(job) +
+       " differ in the pixels of tile " + std::to_string(result.tile) + " of " + title_of(job, *frame) +
        "; one of them computes wrongly");
 }
 
@@ -96,7 +108,7 @@ void Farm::receive(WorkerId id, GiveBack given, FarmTime now) {
   for (const auto& [job_id, count] : tiles) {
     Job& job = state_->jobs.at(job_id);
     state_->tell("worker " + worker.info.name + " gave back " + count_of_tiles(count) + " of " +
-                 title_of(job) + ": " + (is_refusal ? given.reason : "it is stopping"),
+                     title_of(job) + ": " + (is_refusal ? given.reason : "it is stopping"),
                  worker.info.name);
     if (is_refusal) state_->refuse(worker, job, given.reason, now);
   }
@@ -111,8 +123,7 @@ void Farm::State::refuse(Worker& worker, Job& job, const std::string& reason, Fa
   const bool somebody_can = std::ranges::any_of(
       workers, [&](const auto& w) { return !w.second.is_stopping && !refuses(w.second, job.id); });
   if (somebody_can || job.pixels_done > 0) return;
-  warn(title_of(job) + " failed: no worker can render it; " + job.message);
-  end(job, JobState::failed, now);
+  fail(job, "no worker can render it; " + job.message, now);
 }
 
 }  // namespace rayfarm

@@ -11,7 +11,7 @@ constexpr double seconds_of_work = 0.25;   // hides the journey of a tile, and i
 constexpr std::size_t most_leases = 1024;  // however fast: what a lost worker costs stays small
 
 bool knows_scene(const Worker& worker, const std::string& hash) {
-  return std::ranges::any_of(worker.jobs, [&](const auto& known) { return known.second.scene_hash == hash; });
+  return std::ranges::any_of(worker.frames, [&](const auto& known) { return known.second == hash; });
 }
 
 }  // namespace
@@ -26,7 +26,8 @@ bool refuses(const Worker& worker, JobId job) {
 bool has_room_for(const Worker& worker, JobId job) {
   const std::uint32_t threads = worker.info.threads;
   if (worker.leases.size() >= most_leases) return false;
-  if (worker.leases.size() < std::size_t{threads} + spare_leases) return true;
+  const bool is_new = worker.tiles == 0;  // who knows how long it will take
+  if (worker.leases.size() < std::size_t{threads} + (is_new ? 0 : spare_leases)) return true;
   const auto known = worker.jobs.find(job);
   if (known == worker.jobs.end()) return false;
   const double samples_per_second = known->second.speed.samples_per_second() * threads;
@@ -47,21 +48,23 @@ WorkerView view_of(const Worker& worker) {
   return view;
 }
 
-void introduce(Worker& worker, JobId id, const JobSpec& job) {
-  if (worker.jobs.contains(id)) return;
-  if (!knows_scene(worker, job.scene_hash)) worker.send(SceneData{job.scene_hash, job.scene_bytes});
-  worker.send(JobStart{id, job.scene_hash, job.settings});
-  worker.jobs[id].scene_hash = job.scene_hash;
+void introduce(Worker& worker, const Job& job, const JobFrame& frame) {
+  const FrameId id{job.id, frame.number};
+  if (worker.frames.contains(id)) return;
+  if (!knows_scene(worker, frame.scene_hash)) worker.send(SceneData{frame.scene_hash, frame.scene_bytes});
+  worker.send(FrameStart{job.id, frame.scene_hash, settings_of(job, frame)});
+  worker.frames[id] = frame.scene_hash;
+  worker.jobs[job.id];
 }
 
-void forget(Worker& worker, JobId job) {
-  if (worker.jobs.erase(job) != 0) worker.send(JobEnd{job});
+void forget(Worker& worker, FrameId frame) {
+  if (worker.frames.erase(frame) != 0) worker.send(FrameEnd{frame.job, frame.frame});
 }
 
 void assign(Worker& worker, LeaseId id, const Lease& lease) {
   worker.leases.emplace(id, lease);
   worker.samples_held += lease.samples;
-  worker.send(Assignment{id, lease.job, lease.work.tile, lease.work.passes});
+  worker.send(Assignment{id, lease.job, lease.frame, lease.work.tile, lease.work.passes});
 }
 
 Lease take_lease(Worker& worker, LeaseId id) {

@@ -15,6 +15,7 @@ namespace rayfarm {
 /// Work that one worker was asked to do; good for one result.
 struct Lease {
   JobId job{};
+  std::uint32_t frame = 0;
   Work work;
   std::uint64_t samples = 0;
   FarmTime given{};
@@ -30,13 +31,14 @@ struct Worker {
   bool is_stopping = false;  // said so itself
   bool was_contradicted = false;
 
-  /// A job that this worker was told of and not yet told the end of.
+  /// What is known of the worker and a job that it had work of.
   struct KnownJob {
-    std::string scene_hash;
     Speed speed;
     bool is_refused = false;  // the worker cannot render it
   };
   std::map<JobId, KnownJob> jobs;
+  std::map<FrameId, std::string>
+      frames;  // that it was told of and not yet told the end of: their scenes' hashes
 
   std::map<LeaseId, Lease> leases;  // held now
   std::uint64_t samples_held = 0;   // sum over leases
@@ -51,10 +53,10 @@ bool refuses(const Worker& worker, JobId job);
 bool has_room_for(const Worker& worker, JobId job);
 WorkerView view_of(const Worker& worker);
 
-/// Makes the job known, sending what of it the worker has not got.
-void introduce(Worker& worker, JobId id, const JobSpec& job);
-/// Lets the job be forgotten, if it is known.
-void forget(Worker& worker, JobId job);
+/// Makes the frame known, sending what of it the worker has not got.
+void introduce(Worker& worker, const Job& job, const JobFrame& frame);
+/// Lets the frame be forgotten, if it is known.
+void forget(Worker& worker, FrameId frame);
 void assign(Worker& worker, LeaseId id, const Lease& lease);
 /// Takes a lease that the worker holds away from it, silently.
 Lease take_lease(Worker& worker, LeaseId id);

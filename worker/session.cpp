@@ -12,9 +12,10 @@ namespace {
 
 std::string number_of(JobId job) { return std::to_string(static_cast<std::uint64_t>(job)); }
 
-void log_start(const JobStart& job) {
-  spdlog::info("job {} starts: {}x{}, {} samples per pixel, scene {}", number_of(job.job), job.settings.width,
-               job.settings.height, job.settings.spp, job.scene_hash.substr(0, 8));
+void log_start(const FrameStart& start) {
+  const RenderSettings& s = start.settings;
+  spdlog::info("job {}, frame {} starts: {}x{}, {} samples per pixel, scene {}", number_of(start.job),
+               s.frame, s.width, s.height, s.spp, start.scene_hash.substr(0, 8));
 }
 
 Hello hello_of(const WorkerIdentity& identity) {
@@ -80,11 +81,11 @@ void WorkerSession::handle(const ToWorker& message) {
     for (const LeaseId lease : revoke->leases) held_.erase(lease);
     crew_.take(*revoke);
     leave_when_done();
-  } else if (const auto* start = std::get_if<JobStart>(&message)) {
+  } else if (const auto* start = std::get_if<FrameStart>(&message)) {
     log_start(*start);
     crew_.take(*start);
-  } else if (const auto* end = std::get_if<JobEnd>(&message)) {
-    spdlog::info("job {} ended", number_of(end->job));
+  } else if (const auto* end = std::get_if<FrameEnd>(&message)) {
+    spdlog::info("job {}, frame {} ended", number_of(end->job), end->frame);
     crew_.take(*end);
   } else if (const auto* scene = std::get_if<SceneData>(&message)) {
     crew_.take(*scene);

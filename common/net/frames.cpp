@@ -46,7 +46,7 @@ SharedBytes write_payload(Bytes& out, const SceneData& message) {
 }
 
 SharedBytes write_payload(Bytes& out, const Result& result) {
-  ResultHead head{result.lease, result.job, result.tile, result.seconds, {}};
+  ResultHead head{result.lease, result.job, result.frame, result.tile, result.seconds, {}};
   std::vector<float> floats;
   for (const PassImage& image : result.images) {
     head.images.push_back({static_cast<std::uint8_t>(image.pass),
@@ -88,7 +88,7 @@ void read_payload(ByteView payload, Result& result) {
   std::size_t count = 0;
   for (const ResultHead::Image& image : head.images) count += image.floats;
   const std::vector<float> floats = unpack_floats(source.rest(), count);
-  result = {head.lease, head.job, head.tile, {}, head.seconds};
+  result = {head.lease, head.job, head.frame, head.tile, {}, head.seconds};
   auto at = floats.begin();
   for (const ResultHead::Image& image : head.images) {
     result.images.push_back({image.pass, {at, at + image.floats}, image.counters});

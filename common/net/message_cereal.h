@@ -53,14 +53,14 @@ void serialize(Archive& archive, RenderSettings& s) {
   }
 }
 template <class Archive>
-void serialize(Archive& archive, JobStart& m) {
+void serialize(Archive& archive, FrameStart& m) {
   archive(m.job);
   hash_text(archive, m.scene_hash);
   archive(m.settings);
 }
 template <class Archive>
 void serialize(Archive& archive, Assignment& m) {
-  archive(m.lease, m.job, m.tile, m.passes);
+  archive(m.lease, m.job, m.frame, m.tile, m.passes);
   if (m.passes == 0 || m.passes > all_passes)
     throw CodecError("an assignment names no pass, or one that does not exist");
 }
@@ -74,8 +74,8 @@ void serialize(Archive& archive, GiveBack& m) {
   text(archive, m.reason, max_text);
 }
 template <class Archive>
-void serialize(Archive& archive, JobEnd& m) {
-  archive(m.job);
+void serialize(Archive& archive, FrameEnd& m) {
+  archive(m.job, m.frame);
 }
 template <class Archive>
 void serialize(Archive& archive, Goodbye& m) {
@@ -83,7 +83,8 @@ void serialize(Archive& archive, Goodbye& m) {
 }
 template <class Archive>
 void serialize(Archive& archive, RayCounters& c) {
-  archive(c.primary, c.reflected, c.refracted, c.shadow, c.primary_hits, c.secondary_hits, c.bad_samples, c.lost);
+  archive(c.primary, c.reflected, c.refracted, c.shadow, c.primary_hits, c.secondary_hits, c.bad_samples,
+          c.lost);
 }
 
 /// A Result without its pixels, but with how many there are.
@@ -95,6 +96,7 @@ struct ResultHead {
   };
   LeaseId lease{};
   JobId job{};
+  std::uint32_t frame = 0;
   std::uint32_t tile = 0;
   double seconds = 0;
   std::vector<Image> images;
@@ -105,7 +107,7 @@ void serialize(Archive& archive, ResultHead::Image& i) {
 }
 template <class Archive>
 void serialize(Archive& archive, ResultHead& m) {
-  archive(m.lease, m.job, m.tile, m.seconds, m.images);
+  archive(m.lease, m.job, m.frame, m.tile, m.seconds, m.images);
   if (!std::isfinite(m.seconds) || m.seconds < 0) throw CodecError("a result took no time that can be");
   std::size_t floats = 0;
   int coarser = -1;

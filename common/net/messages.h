@@ -4,15 +4,16 @@
 //   worker -> master  Hello         who I am, what I speak; the first frame, within 5 s
 //   master -> worker  Welcome       you are in (a name already taken is made unique)          or
 //   master -> worker  Refused       why, and what to do; the connection ends
-//   master -> worker  SceneData     once per scene and worker, before the first job that shows it
-//   master -> worker  JobStart      settings for a job of a scene already sent
+//   master -> worker  SceneData     once per scene and worker, before the first frame that shows it
+//   master -> worker  FrameStart    settings for a frame of a job, whose scene was already sent
 //   master -> worker  Assignment    render these passes of this tile
 //   worker -> master  Result        the passes, pixel for pixel, with their exact counters; ends the lease
 //   worker -> master  GiveBack      leases it will not finish: clean stop, or it cannot render the job (why)
 //   master -> worker  Revoke        stop these leases now; nothing is answered for them
-//   master -> worker  JobEnd        forget the job, and its scene when no other job of it is left
+//   master -> worker  FrameEnd      forget the frame, and its scene when no other frame of it is left
 //   both              Heartbeat     each 0.5 s while nothing else is said; 2 s of silence end the connection
 //   both              Goodbye       a clean end, with the reason
+// A job has one frame or, when it is an animation, several; what a worker knows, it knows of a frame.
 // A lease is good for exactly one Result. The master drops what comes for a lease it has revoked (after
 // comparing the pixels with those that another worker delivered).
 #pragma once
@@ -28,7 +29,7 @@
 
 namespace rayfarm {
 
-constexpr std::uint16_t protocol_version = 1;
+constexpr std::uint16_t protocol_version = 2;
 constexpr std::uint16_t default_farm_port = 5411;
 constexpr auto heartbeat_interval = std::chrono::milliseconds(500);
 constexpr auto peer_patience = std::chrono::seconds(2);       // four missed heartbeats
@@ -36,6 +37,13 @@ constexpr auto handshake_patience = std::chrono::seconds(5);  // for Hello and f
 
 enum class JobId : std::uint64_t {};
 enum class LeaseId : std::uint64_t {};
+
+/// One picture of a job.
+struct FrameId {
+  JobId job{};
+  std::uint32_t frame = 0;
+  auto operator<=>(const FrameId&) const = default;
+};
 
 struct Hello {
   std::uint16_t protocol = protocol_version;
@@ -59,15 +67,16 @@ struct SceneData {
   std::string hash;   // SHA-256 of the bytes, hexadecimal
   SharedBytes bytes;  // encode_scene()
 };
-struct JobStart {
+struct FrameStart {
   JobId job{};
   std::string scene_hash;
-  RenderSettings settings;
-  bool operator==(const JobStart&) const = default;
+  RenderSettings settings;  // they name the frame
+  bool operator==(const FrameStart&) const = default;
 };
 struct Assignment {
   LeaseId lease{};
   JobId job{};
+  std::uint32_t frame = 0;
   std::uint32_t tile = 0;
   PassSet passes = 0;
   bool operator==(const Assignment&) const = default;
@@ -75,6 +84,7 @@ struct Assignment {
 struct Result {
   LeaseId lease{};
   JobId job{};
+  std::uint32_t frame = 0;
   std::uint32_t tile = 0;
   std::vector<PassImage> images;
   double seconds = 0;  // of one thread, wall time
@@ -89,9 +99,10 @@ struct Revoke {
   std::vector<LeaseId> leases;
   bool operator==(const Revoke&) const = default;
 };
-struct JobEnd {
+struct FrameEnd {
   JobId job{};
-  bool operator==(const JobEnd&) const = default;
+  std::uint32_t frame = 0;
+  bool operator==(const FrameEnd&) const = default;
 };
 struct Heartbeat {
   bool operator==(const Heartbeat&) const = default;
@@ -102,7 +113,7 @@ struct Goodbye {
 };
 
 using ToWorker =
-    std::variant<Welcome, Refused, SceneData, JobStart, Assignment, Revoke, JobEnd, Heartbeat, Goodbye>;
+    std::variant<Welcome, Refused, SceneData, FrameStart, Assignment, Revoke, FrameEnd, Heartbeat, Goodbye>;
 using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye>;
 
 }  // namespace rayfarm

@@ -16,6 +16,8 @@ TileRenderer made_ready(const SceneData& data, const PrepareScene& prepare) {
   return prepare(decode_scene(*data.bytes));
 }
 
+FrameId frame_of(const Assignment& assignment) { return {assignment.job, assignment.frame}; }
+
 /// Empty unless the assignment cannot be rendered.
 std::string fault_of(const Assignment& assignment, const RenderSettings& settings) {
   const std::uint32_t tiles = tile_count({settings.width, settings.height});
@@ -43,7 +45,7 @@ void Crew::begin(Answer answer) {
   const Lock lock(mutex_);
   drop_waiting();
   stop_running();
-  jobs_.clear();
+  frames_.clear();
   for (auto& [hash, scene] : scenes_) discard(std::move(scene));
   scenes_.clear();
   taking_ = true;
@@ -56,21 +58,21 @@ void Crew::take(const SceneData& scene) {
     scenes_.emplace(scene.hash, std::make_shared<SceneState>(SceneState{scene, {}, {}, {}}));
 }
 
-void Crew::take(const JobStart& job) {
+void Crew::take(const FrameStart& start) {
   const Lock lock(mutex_);
-  auto found = scenes_.find(job.scene_hash);
+  auto found = scenes_.find(start.scene_hash);
   auto scene = found != scenes_.end()
                    ? found->second
                    : std::make_shared<SceneState>(SceneState{{}, {}, {}, "its scene was never sent"});
-  jobs_.insert_or_assign(job.job, Job{job.settings, std::move(scene)});
+  frames_.insert_or_assign({start.job, start.settings.frame}, Frame{start.settings, std::move(scene)});
 }
 
 void Crew::take(const Assignment& assignment) {
   const Lock lock(mutex_);
   if (!taking_) return give_back(assignment.lease, "");
-  const auto job = jobs_.find(assignment.job);
-  if (job == jobs_.end()) return give_back(assignment.lease, "its job was never started");
-  if (std::string fault = fault_of(assignment, job->second.settings); !fault.empty())
+  const auto frame = frames_.find(frame_of(assignment));
+  if (frame == frames_.end()) return give_back(assignment.lease, "its job was never started");
+  if (std::string fault = fault_of(assignment, frame->second.settings); !fault.empty())
     return give_back(assignment.lease, std::move(fault));
   waiting_.push_back(assignment);
   changed_.notify_one();
@@ -87,14 +89,15 @@ void Crew::take(const Revoke& revoke) {
   }
 }
 
-void Crew::take(const JobEnd& ended) {
+void Crew::take(const FrameEnd& end) {
   const Lock lock(mutex_);
-  const auto job = jobs_.find(ended.job);
-  if (job == jobs_.end()) return;
-  std::erase_if(waiting_, [&](const Assignment& a) { return a.job == ended.job; });
-  std::shared_ptr<SceneState> scene = std::move(job->second.scene);
-  jobs_.erase(job);
-  if (std::ranges::any_of(jobs_, [&](const auto& other) { return other.second.scene == scene; })) return;
+  const FrameId id{end.job, end.frame};
+  const auto frame = frames_.find(id);
+  if (frame == frames_.end()) return;
+  std::erase_if(waiting_, [&](const Assignment& a) { return frame_of(a) == id; });
+  std::shared_ptr<SceneState> scene = std::move(frame->second.scene);
+  frames_.erase(frame);
+  if (std::ranges::any_of(frames_, [&](const auto& other) { return other.second.scene == scene; })) return;
   scenes_.erase(scene->data.hash);
   discard(std::move(scene));
 }
@@ -157,16 +160,16 @@ bool Crew::work_once(Lock& lock) {
     return true;
   }
   for (auto next = waiting_.begin(); next != waiting_.end(); ++next) {
-    Job job = jobs_.at(next->job);
-    if (job.scene->preparing) continue;
-    if (!job.scene->is_settled()) {
-      prepare(lock, job.scene);
+    Frame frame = frames_.at(frame_of(*next));
+    if (frame.scene->preparing) continue;
+    if (!frame.scene->is_settled()) {
+      prepare(lock, frame.scene);
       return true;
     }
     const Assignment assignment = *next;
     waiting_.erase(next);
-    render(lock, assignment, job);
-    discarded_.push_back(std::move(job.scene));  // who holds it last frees it, and that may be us
+    render(lock, assignment, frame);
+    discarded_.push_back(std::move(frame.scene));  // who holds it last frees it, and that may be us
     return true;
   }
   return false;
@@ -191,8 +194,8 @@ void Crew::prepare(Lock& lock, const std::shared_ptr<SceneState>& scene) {
   changed_.notify_all();
 }
 
-void Crew::render(Lock& lock, const Assignment& assignment, const Job& job) {
-  if (!job.scene->fault.empty()) return give_back(assignment.lease, job.scene->fault);
+void Crew::render(Lock& lock, const Assignment& assignment, const Frame& frame) {
+  if (!frame.scene->fault.empty()) return give_back(assignment.lease, frame.scene->fault);
   const auto stop = std::make_shared<std::atomic<bool>>(false);
   running_.insert_or_assign(assignment.lease, stop);
   lock.unlock();
@@ -201,8 +204,8 @@ void Crew::render(Lock& lock, const Assignment& assignment, const Job& job) {
   std::string fault;
   const auto begun = std::chrono::steady_clock::now();
   try {
-    images = job.scene->renderer(job.settings, assignment.tile, assignment.passes,
-                                 [&] { return stop->load(std::memory_order_relaxed); });
+    images = frame.scene->renderer(frame.settings, assignment.tile, assignment.passes,
+                                   [&] { return stop->load(std::memory_order_relaxed); });
   } catch (const std::exception& error) {
     fault = error.what();
   }
@@ -215,7 +218,8 @@ void Crew::render(Lock& lock, const Assignment& assignment, const Job& job) {
   running_.erase(running);
   if (!fault.empty()) return give_back(assignment.lease, std::move(fault));
   assert(images);  // it was never told to stop
-  answer_(Result{assignment.lease, assignment.job, assignment.tile, std::move(*images), took.count()});
+  answer_(Result{assignment.lease, assignment.job, assignment.frame, assignment.tile, std::move(*images),
+                 took.count()});
 }
 
 }  // namespace rayfarm

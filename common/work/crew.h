@@ -19,10 +19,10 @@
 namespace rayfarm {
 
 /// Threads that render assignments in the order in which they came. A scene is checked against its hash and
-/// made ready once, by one of the threads, for all jobs that show it.
+/// made ready once, by one of the threads, for all frames that show it.
 ///
 /// Each lease ends in exactly one of: a Result, a GiveBack that says why it cannot be rendered, a Revoke or
-/// JobEnd, the list that stop_taking() or abandon() returns, begin().
+/// FrameEnd, the list that stop_taking() or abandon() returns, begin().
 class Crew {
  public:
   /// Called by the crew's threads, one at a time; must return soon and not call the crew.
@@ -39,10 +39,10 @@ class Crew {
   void begin(Answer answer);
 
   void take(const SceneData& scene);
-  void take(const JobStart& job);
+  void take(const FrameStart& start);
   void take(const Assignment& assignment);
   void take(const Revoke& revoke);
-  void take(const JobEnd& job);
+  void take(const FrameEnd& end);
 
   /// The leases that were not begun, which now will not be, nor those that are still to come.
   std::vector<LeaseId> stop_taking();
@@ -57,7 +57,7 @@ class Crew {
     std::string fault;      // says why it cannot be
     bool is_settled() const { return renderer || !fault.empty(); }
   };
-  struct Job {
+  struct Frame {
     RenderSettings settings;
     std::shared_ptr<SceneState> scene;
   };
@@ -67,7 +67,7 @@ class Crew {
   void work();
   bool work_once(Lock& lock);
   void prepare(Lock& lock, const std::shared_ptr<SceneState>& scene);
-  void render(Lock& lock, const Assignment& assignment, const Job& job);
+  void render(Lock& lock, const Assignment& assignment, const Frame& frame);
   void give_back(LeaseId lease, std::string reason);
   void discard(std::shared_ptr<SceneState> scene);
   std::vector<LeaseId> drop_waiting();
@@ -82,7 +82,7 @@ class Crew {
   Answer answer_;
   bool taking_ = true, ending_ = false;
   std::map<std::string, std::shared_ptr<SceneState>> scenes_;  // by hash
-  std::map<JobId, Job> jobs_;
+  std::map<FrameId, Frame> frames_;
   std::deque<Assignment> waiting_;
   std::map<LeaseId, Stop> running_;
   std::vector<std::shared_ptr<SceneState>> discarded_;  // freed by a thread of ours: that takes long

@@ -122,6 +122,8 @@ ApiResponse answer(const ApiRequest& request, const Doors& doors) {
     return error_response(409, error.what());
   } catch (const AddressError& error) {
     return error_response(422, error.what());
+  } catch (const FarmFull& error) {
+    return error_response(503, error.what());
   } catch (const SettingsError& error) {
     return error_response(422, error.what());
   } catch (const SceneError& error) {

@@ -55,7 +55,7 @@ void tiles_through_the_farm(benchmark::State& state) {
     for (FarmTime now{}; !under_way.empty(); now += std::chrono::milliseconds(1)) {
       const auto [worker, a] = under_way.front();
       under_way.pop_front();
-      farm->receive(worker, Result{a.lease, a.job, a.tile, images, 0.02}, now);
+      farm->receive(worker, Result{a.lease, a.job, a.frame, a.tile, images, 0.02}, now);
     }
 
     state.PauseTiming();

@@ -12,18 +12,18 @@ namespace {
 
 FarmTime now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
-/// What a worker knows: its scenes and jobs.
+/// What a worker knows: its scenes and frames.
 struct Renderer {
   WorkerId id{};
   int tiles_left = 0;
   std::map<std::string, std::shared_ptr<const World>> worlds;
-  std::map<JobId, JobStart> jobs;
+  std::map<FrameId, FrameStart> frames;
 
   Result render(const Assignment& a) const {
-    const JobStart& job = jobs.at(a.job);
+    const FrameStart& frame = frames.at({a.job, a.frame});
     auto images =
-        render_tile(*worlds.at(job.scene_hash), job.settings, a.tile, a.passes, [] { return false; });
-    return {a.lease, a.job, a.tile, std::move(*images), 0.001};
+        render_tile(*worlds.at(frame.scene_hash), frame.settings, a.tile, a.passes, [] { return false; });
+    return {a.lease, a.job, a.frame, a.tile, std::move(*images), 0.001};
   }
 };
 
@@ -75,7 +75,8 @@ void FarmThread::add_renderer(const std::string& name, int tiles) {
   const auto send = [this, renderer](ToWorker message) {
     if (const auto* scene = std::get_if<SceneData>(&message))
       renderer->worlds[scene->hash] = std::make_shared<const World>(decode_scene(*scene->bytes));
-    if (const auto* job = std::get_if<JobStart>(&message)) renderer->jobs[job->job] = *job;
+    if (const auto* start = std::get_if<FrameStart>(&message))
+      renderer->frames[{start->job, start->settings.frame}] = *start;
     if (const auto* assignment = std::get_if<Assignment>(&message))
       post([renderer, a = *assignment](Farm& farm, FarmTime time) {
         if (renderer->tiles_left-- > 0) farm.receive(renderer->id, renderer->render(a), time);

@@ -34,10 +34,10 @@ struct MasterAtDoor : MasterByHand {
   void start_job() {
     const SceneData scene = scene_data(simple_scene());
     send(scene);
-    send(JobStart{JobId{1}, scene.hash, {}});
+    send(FrameStart{JobId{1}, scene.hash, {}});
   }
   void assign(std::uint64_t lease, std::uint32_t tile) {
-    send(Assignment{LeaseId{lease}, JobId{1}, tile, all_passes});
+    send(Assignment{LeaseId{lease}, JobId{1}, 0, tile, all_passes});
   }
 };
 
@@ -74,7 +74,7 @@ TEST(Worker, ComesBackAfterARefusalAGoodbyeAndGarbage) {
   MasterAtDoor(door).send(Refused{"not today"});
   MasterAtDoor(door).send(Goodbye{"the master stops"});
   MasterAtDoor(door).send_bytes(Bytes(1000, 'x'));
-  MasterAtDoor(door).send(JobEnd{JobId{1}});  // before Welcome
+  MasterAtDoor(door).send(FrameEnd{JobId{1}});  // before Welcome
   MasterAtDoor(door).welcome();
 }
 
@@ -126,7 +126,7 @@ TEST(Worker, HandsBackWhatItHasNotBegunWhenItStops) {
   for (std::uint64_t lease = 1; lease <= 3; ++lease) master.assign(lease, 0);
   gate.wait_for_begun(1);
   // All three are there once the answer to a fourth is.
-  master.send(Assignment{LeaseId{4}, JobId{9}, 0, 1});
+  master.send(Assignment{LeaseId{4}, JobId{9}, 0, 0, 1});
   EXPECT_EQ(master.receive_a<GiveBack>().leases, std::vector{LeaseId{4}});
   worker.stop();
   EXPECT_EQ(master.receive(), ToMaster(GiveBack{{LeaseId{2}, LeaseId{3}}, ""}));

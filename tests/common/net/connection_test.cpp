@@ -86,12 +86,12 @@ TEST(Connection, CarriesAMessageMuchLargerThanItsBuffer) {
   MasterConnection worker(std::move(s.theirs), patient);
   WorkerConnection master(std::move(s.ours), patient);
   master.post(SceneData{sha256_hex(*bytes), bytes});
-  master.post(JobEnd{JobId{3}});
+  master.post(FrameEnd{JobId{3}});
   asio::co_spawn(s.io, master.tend(), asio::detached);
   std::vector<ToWorker> received;
   EXPECT_EQ(s.run(until_first_ends(worker.tend(), receive_some(worker, received, 2))), "");
   EXPECT_EQ(*std::get<SceneData>(received[0]).bytes, *bytes);
-  EXPECT_EQ(std::get<JobEnd>(received[1]).job, JobId{3});
+  EXPECT_EQ(std::get<FrameEnd>(received[1]).job, JobId{3});
 }
 
 TEST(Connection, BeatsWhileNothingElseIsSaid) {
@@ -201,10 +201,10 @@ TEST(Connection, CutsOffAPeerThatReadsTooSlowly) {
 TEST(Connection, SendsAllThatWasPostedBeforeItFinishes) {
   Sockets s;
   WorkerConnection connection(std::move(s.ours), patient);
-  for (std::uint64_t i = 0; i < 100; ++i) connection.post(JobEnd{JobId{i}});
+  for (std::uint64_t i = 0; i < 100; ++i) connection.post(FrameEnd{JobId{i}});
   connection.post(Goodbye{"done"});
   connection.finish();
-  connection.post(JobEnd{JobId{200}});
+  connection.post(FrameEnd{JobId{200}});
   MasterConnection worker(std::move(s.theirs), patient);
   EXPECT_EQ(s.run(connection.tend()), "");
   s.io.restart();

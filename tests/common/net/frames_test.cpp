@@ -189,7 +189,7 @@ TEST(Messages, WithTextThatCannotBeShownAreNotSent) {
 TEST(Messages, WithSettingsThatCannotBeRenderedAreRefused) {
   RenderSettings settings;
   settings.width = 0;
-  EXPECT_THROW(encode(ToWorker{JobStart{JobId{1}, std::string(64, 'a'), settings}}), CodecError);
+  EXPECT_THROW(encode(ToWorker{FrameStart{JobId{1}, std::string(64, 'a'), settings}}), CodecError);
 }
 
 }  // namespace

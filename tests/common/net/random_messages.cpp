@@ -50,17 +50,22 @@ std::vector<ToWorker> random_to_worker(std::mt19937_64& random) {
   return {Welcome{random_name(random)},
           Refused{"the name " + random_name(random) + " is banned"},
           SceneData{hash, std::make_shared<const Bytes>(scene)},
-          JobStart{JobId{random()}, hash, random_settings(random)},
+          FrameStart{JobId{random()}, hash, random_settings(random)},
           Assignment{LeaseId{random()}, JobId{random()}, static_cast<std::uint32_t>(random()),
-                     static_cast<PassSet>(1 + random() % 15)},
+                     static_cast<std::uint32_t>(random()), static_cast<PassSet>(1 + random() % 15)},
           Revoke{random_leases(random)},
-          JobEnd{JobId{random()}},
+          FrameEnd{JobId{random()}, static_cast<std::uint32_t>(random())},
           Heartbeat{},
           Goodbye{"the master stops"}};
 }
 
 std::vector<ToMaster> random_to_master(std::mt19937_64& random) {
-  Result result{LeaseId{random()}, JobId{random()}, static_cast<std::uint32_t>(random()), {}, 0.25};
+  Result result{LeaseId{random()},
+                JobId{random()},
+                static_cast<std::uint32_t>(random()),
+                static_cast<std::uint32_t>(random()),
+                {},
+                0.25};
   for (int pass = 0; pass < pass_count; ++pass)
     if (pass == 3 || random() % 2) result.images.push_back(random_pass(random, pass));
   return {

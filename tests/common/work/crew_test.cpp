@@ -22,10 +22,10 @@ struct CrewAtWork {
   void start_job(std::uint64_t job) {
     const SceneData scene = scene_data(simple_scene());
     crew.take(scene);
-    crew.take(JobStart{JobId{job}, scene.hash, {}});
+    crew.take(FrameStart{JobId{job}, scene.hash, {}});
   }
   void assign(std::uint64_t lease, std::uint32_t tile) {
-    crew.take(Assignment{LeaseId{lease}, JobId{1}, tile, all_passes});
+    crew.take(Assignment{LeaseId{lease}, JobId{1}, 0, tile, all_passes});
   }
 };
 
@@ -53,7 +53,7 @@ TEST(Crew, PreparesASceneOnceForAllThreadsAndJobs) {
   at_work.start_job(2);
   for (std::uint32_t tile = 0; tile < 40; ++tile) {
     at_work.assign(tile, tile);
-    at_work.crew.take(Assignment{LeaseId{100 + tile}, JobId{2}, tile, 1});
+    at_work.crew.take(Assignment{LeaseId{100 + tile}, JobId{2}, 0, tile, 1});
   }
   for (int i = 0; i < 80; ++i) EXPECT_TRUE(std::holds_alternative<Result>(at_work.answers.next()));
   EXPECT_EQ(prepared, 1);
@@ -82,9 +82,9 @@ TEST(Crew, StopsTheTilesOfAJobThatEnds) {
   at_work.assign(1, 0);
   at_work.assign(2, 1);
   gate.wait_for_begun(1);
-  at_work.crew.take(JobEnd{JobId{1}});
+  at_work.crew.take(FrameEnd{JobId{1}});
   at_work.crew.take(Revoke{{LeaseId{1}, LeaseId{2}}});
-  at_work.crew.take(Assignment{LeaseId{3}, JobId{2}, 2, 1});  // its scene is still there
+  at_work.crew.take(Assignment{LeaseId{3}, JobId{2}, 0, 2, 1});  // its scene is still there
   gate.open();
   EXPECT_EQ(std::get<Result>(at_work.answers.next()).lease, LeaseId{3});
 }
@@ -96,10 +96,10 @@ TEST(Crew, GivesBackWithAReasonWhatCannotBeRendered) {
   at_work.assign(2, 80);
   EXPECT_EQ(at_work.answers.next(),
             ToMaster(GiveBack{{LeaseId{2}}, "there is no tile 80, the picture has 80"}));
-  at_work.crew.take(Assignment{LeaseId{3}, JobId{9}, 0, 1});
+  at_work.crew.take(Assignment{LeaseId{3}, JobId{9}, 0, 0, 1});
   EXPECT_EQ(at_work.answers.next(), ToMaster(GiveBack{{LeaseId{3}}, "its job was never started"}));
-  at_work.crew.take(JobStart{JobId{4}, "another hash", {}});
-  at_work.crew.take(Assignment{LeaseId{4}, JobId{4}, 0, 1});
+  at_work.crew.take(FrameStart{JobId{4}, "another hash", {}});
+  at_work.crew.take(Assignment{LeaseId{4}, JobId{4}, 0, 0, 1});
   EXPECT_EQ(at_work.answers.next(), ToMaster(GiveBack{{LeaseId{4}}, "its scene was never sent"}));
 }
 
@@ -108,8 +108,8 @@ TEST(Crew, DoesNotRenderASceneWithAnotherHash) {
   SceneData scene = scene_data(simple_scene());
   scene.hash[0] = scene.hash[0] == '0' ? '1' : '0';
   at_work.crew.take(scene);
-  at_work.crew.take(JobStart{JobId{2}, scene.hash, {}});
-  at_work.crew.take(Assignment{LeaseId{1}, JobId{2}, 0, 1});
+  at_work.crew.take(FrameStart{JobId{2}, scene.hash, {}});
+  at_work.crew.take(Assignment{LeaseId{1}, JobId{2}, 0, 0, 1});
   EXPECT_EQ(at_work.answers.next(),
             ToMaster(GiveBack{{LeaseId{1}}, "the scene's bytes do not have the scene's hash"}));
 }

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 constexpr Size ten_tiles{5 * 64, 2 * 64};
 
-WorkerInfo remote(std::string name, std::uint32_t threads = 2) {
+WorkerInfo remote(std::string name, std::uint32_t threads = 4) {
   return {.name = std::move(name), .threads = threads};
 }
 WorkerInfo local(std::uint32_t threads = 2) {
@@ -31,11 +31,11 @@ int count_of(const std::vector<ToWorker>& messages) {
       std::ranges::count_if(messages, [](auto& m) { return std::holds_alternative<Message>(m); }));
 }
 
-TEST(Farm, AWorkerHoldsALeaseForEachThreadAndTwoMore) {
+TEST(Farm, AWorkerHoldsALeaseForEachThreadAndTwoMoreOnceItHasShownWhatItCanDo) {
   Farm farm;
   FakeWorker worker(farm, remote("pc", 3));
   farm.submit(job_of(ten_tiles), 0s);
-  EXPECT_EQ(worker.held().size(), 5u);
+  EXPECT_EQ(worker.held().size(), 3u);
   worker.finish_one(1s);
   EXPECT_EQ(worker.held().size(), 5u);
 }
@@ -93,9 +93,10 @@ TEST(Farm, ALostWorkersTilesGoFirstToTheNext) {
   const std::vector<std::uint32_t> tiles = tiles_of(lost.held());
   FakeWorker other(farm, remote("other"));
   farm.remove_worker(lost.id(), "connection reset", 1s);
-  EXPECT_EQ(other.held().size(), 4u);
   for (int i = 0; i < 4; ++i) other.finish_one(1s);
-  EXPECT_EQ(tiles_of(other.held()), tiles);
+  std::vector<std::uint32_t> next = tiles_of(other.held());
+  next.resize(tiles.size());
+  EXPECT_EQ(next, tiles);
 }
 
 TEST(Farm, AnIdleWorkerGetsALostWorkersTilesAtOnce) {
@@ -167,9 +168,9 @@ TEST(Farm, ASceneIsSentOnceForAllItsJobsAndAgainOnlyWhenItWasForgotten) {
   farm.submit(job_of({64, 64}, "c", "other"), 0s);
   std::vector<ToWorker> messages = worker.take_messages();
   EXPECT_EQ(count_of<SceneData>(messages), 2);
-  EXPECT_EQ(count_of<JobStart>(messages), 3);
+  EXPECT_EQ(count_of<FrameStart>(messages), 3);
   worker.finish_all();
-  EXPECT_EQ(count_of<JobEnd>(worker.take_messages()), 3);
+  EXPECT_EQ(count_of<FrameEnd>(worker.take_messages()), 3);
   farm.submit(job_of({64, 64}, "d", "same"), 0s);
   EXPECT_EQ(count_of<SceneData>(worker.take_messages()), 1);
 }
@@ -182,7 +183,7 @@ TEST(Farm, AWorkerIsWelcomedThenSentTheSceneThenTheJob) {
   ASSERT_EQ(messages.size(), 3u);
   EXPECT_EQ(std::get<Welcome>(messages[0]).name, "pc");
   EXPECT_EQ(std::get<SceneData>(messages[1]).hash, "scene");
-  EXPECT_EQ(std::get<JobStart>(messages[2]).scene_hash, "scene");
+  EXPECT_EQ(std::get<FrameStart>(messages[2]).scene_hash, "scene");
 }
 
 TEST(Farm, PausingRevokesAtOnceAndResumingGoesOn) {
@@ -194,7 +195,7 @@ TEST(Farm, PausingRevokesAtOnceAndResumingGoesOn) {
   EXPECT_TRUE(worker.held().empty());
   EXPECT_EQ(farm.job(job, 1s)->state, JobState::paused);
   EXPECT_TRUE(farm.resume(job, 2s));
-  EXPECT_EQ(worker.held().size(), 4u);
+  EXPECT_EQ(worker.held().size(), 6u);
   worker.finish_all();
   EXPECT_EQ(farm.job(job, 3s)->state, JobState::done);
 }
@@ -228,7 +229,7 @@ TEST(Farm, CancellingRevokesAtOnceAndKeepsWhatIsThere) {
   worker.take_messages();
   EXPECT_TRUE(farm.cancel(job, 1s));
   EXPECT_TRUE(worker.held().empty());
-  EXPECT_EQ(count_of<JobEnd>(worker.take_messages()), 1);
+  EXPECT_EQ(count_of<FrameEnd>(worker.take_messages()), 1);
   EXPECT_EQ(farm.job(job, 2s)->state, JobState::cancelled);
   EXPECT_EQ(farm.film(job)->pixels_done(), 64u * 64u);
 }

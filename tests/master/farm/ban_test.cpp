@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 WorkerInfo remote(std::string name) {
   WorkerInfo info;
-  info.name = std::move(name), info.threads = 2;
+  info.name = std::move(name), info.threads = 4;
   return info;
 }
 

@@ -1,5 +1,5 @@
 // The farm under chance: workers join, leave, lie, answer late and twice; jobs are paused, resumed,
-// cancelled, reordered. After every step the book kept by hand must agree with the rules; in the end with the
+// cancelled, reordered, their frames come late. After every step the book kept by hand must agree with the rules; in the end with the
 // pictures.
 #include <gtest/gtest.h>
 
@@ -32,7 +32,8 @@ class Chaos {
   /// Everything that is still wanted gets done, by one new worker who just works.
   void finish() {
     for (const auto& [id, size] : sizes_) farm_.resume(id, now_);
-    while (!workers_.empty()) leave(0);
+    while (!to_come_.empty()) send_a_frame();
+    while (!workers_.empty()) stop(0);
     FakeWorker last(farm_, {.name = "last", .threads = 4}, now_);
     last.finish_all(now_);
     for (const auto& [id, size] : sizes_) {
@@ -41,9 +42,15 @@ class Chaos {
         EXPECT_EQ(job.state, JobState::cancelled);
         continue;
       }
+      if (job.state == JobState::failed) continue;  // over it too many workers were lost
       ASSERT_EQ(job.state, JobState::done);
-      EXPECT_EQ(farm_.film(id)->rgb(), made_up_picture(id, size));
-      EXPECT_EQ(job.counters, made_up_counters(size)) << "a pass was committed twice, or not at all";
+      RayCounters sum;
+      for (const FrameView& frame : farm_.frames(id, now_)) {
+        EXPECT_EQ(farm_.film(id, frame.frame)->rgb(), made_up_picture(id, size, frame.frame));
+        EXPECT_EQ(frame.counters, made_up_counters(size)) << "a pass was committed twice, or not at all";
+        sum += frame.counters;
+      }
+      EXPECT_EQ(job.counters, sum);
     }
   }
 
@@ -51,7 +58,7 @@ class Chaos {
   std::size_t chance(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
 
   void step() {
-    switch (chance(20)) {
+    switch (chance(24)) {
       case 0:
         return join();
       case 1:
@@ -68,6 +75,11 @@ class Chaos {
         return lie();
       case 7:
         return give_back();
+      case 8:
+      case 9:
+        return send_a_frame();
+      case 10:
+        return workers_.size() > 1 ? stop(chance(workers_.size())) : join();
       default:
         return work();
     }
@@ -86,13 +98,39 @@ class Chaos {
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(who));
   }
 
+  void stop(std::size_t who) {
+    remember(workers_[who]);
+    farm_.receive(workers_[who].id(), GiveBack{}, now_);
+    leave(who);
+  }
+
+  void send_a_frame() {
+    if (to_come_.empty()) return;
+    const auto next = std::next(to_come_.begin(), static_cast<std::ptrdiff_t>(chance(to_come_.size())));
+    const auto [job, frames] = *next;
+    const bool goes_on = add_frame(farm_, job, frames.front(), now_);
+    ASSERT_EQ(goes_on, !has_ended(job));
+    next->second.erase(next->second.begin());
+    if (!goes_on || next->second.empty()) to_come_.erase(next);
+  }
+
+  bool has_ended(JobId job) {
+    const JobState state = farm_.job(job, now_)->state;
+    return state == JobState::cancelled || state == JobState::failed;
+  }
+
   void submit() {
     if (sizes_.size() >= 12) return;
     const Size size{static_cast<std::uint32_t>(1 + chance(400)), static_cast<std::uint32_t>(1 + chance(200))};
     JobSpec spec = job_of(size, "job", "scene " + std::to_string(chance(3)));
     spec.priority = static_cast<int>(chance(5));
     spec.hold = chance(5) == 0;
-    sizes_[farm_.submit(spec, now_)] = size;
+    const auto frames = static_cast<std::uint32_t>(1 + chance(4)),
+               step = static_cast<std::uint32_t>(1 + chance(3));
+    spec.frames = FrameRange{0, (frames - 1) * step, step};
+    const JobId id = farm_.submit(spec, now_);
+    sizes_[id] = size;
+    for (std::uint32_t i = 1; i < frames; ++i) to_come_[id].push_back(spec.frames->at(i));
   }
 
   void command_a_job() {
@@ -164,7 +202,7 @@ class Chaos {
     const Assignment given = worker.held()[chance(worker.held().size())];
     const bool is_refusal = chance(2) == 0;
     // A job that everybody refuses fails, by right; here somebody always can.
-    if (is_refusal && farm_.film(given.job)->pixels_done() == 0) return;
+    if (is_refusal && farm_.job(given.job, now_)->pixels_done == 0) return;
     remember(worker);
     worker.drop(given.lease);
     if (is_refusal) refused_.insert({worker.id(), given.job});
@@ -193,7 +231,7 @@ class Chaos {
   /// What the workers were told they hold is what the farm says they hold; no pass is leased twice or leased
   /// when it is done; nobody who may work is idle while something waits.
   void check_leases() {
-    std::set<std::tuple<JobId, std::uint32_t, int>> leased;
+    std::set<std::tuple<JobId, std::uint32_t, std::uint32_t, int>> leased;
     std::map<JobId, std::uint64_t> pixels_leased;
     const std::vector<WorkerView> views = farm_.workers();
     ASSERT_EQ(views.size(), workers_.size());
@@ -206,15 +244,16 @@ class Chaos {
       for (const Assignment& a : workers_[i].held())
         for (int pass = 0; pass < pass_count; ++pass) {
           if (!(a.passes & 1u << pass)) continue;
-          ASSERT_TRUE(leased.insert({a.job, a.tile, pass}).second) << "leased twice";
-          ASSERT_FALSE(farm_.film(a.job)->passes_of(a.tile) & 1u << pass) << "leased though done";
+          ASSERT_TRUE(leased.insert({a.job, a.frame, a.tile, pass}).second) << "leased twice";
+          ASSERT_FALSE(farm_.film(a.job, a.frame)->passes_of(a.tile) & 1u << pass) << "leased though done";
           pixels_leased[a.job] += pixel_count(tile_at(sizes_.at(a.job), a.tile), pass);
         }
     }
     for (const JobView& job : farm_.jobs(now_)) {
       const bool is_open = job.state == JobState::running || job.state == JobState::waiting;
       ASSERT_TRUE(pixels_leased[job.id] == 0 || is_open) << "leased though not running";
-      if (!is_open || job.pixels_done + pixels_leased[job.id] == job.pixels_total) continue;
+      const std::uint64_t pixels_sent = job.pixels_total / job.frames.count() * job.frames_sent;
+      if (!is_open || job.pixels_done + pixels_leased[job.id] == pixels_sent) continue;
       for (const WorkerView& worker : views) {
         const bool may_work = worker.state != WorkerState::drained && !refused_.contains({worker.id, job.id});
         ASSERT_TRUE(worker.leases > 0 || !may_work) << "idle though something waits";
@@ -229,6 +268,7 @@ class Chaos {
   FarmTime now_{};
   std::vector<FakeWorker> workers_;
   std::map<JobId, Size> sizes_;
+  std::map<JobId, std::vector<std::uint32_t>> to_come_;  // frames whose scenes have not come
   std::set<JobId> cancelled_;
   std::set<std::pair<WorkerId, JobId>> refused_;
   std::vector<Assignment> once_held_;

@@ -5,18 +5,19 @@
 
 namespace rayfarm {
 
-float made_up_value(JobId job, std::uint32_t x, std::uint32_t y, int channel) {
-  return static_cast<float>(static_cast<std::uint64_t>(job) * 3 + x * 7 + y * 1013) +
+float made_up_value(FrameId frame, std::uint32_t x, std::uint32_t y, int channel) {
+  return static_cast<float>(static_cast<std::uint64_t>(frame.job) * 3 + frame.frame * 31 + x * 7 + y * 1013) +
          0.25f * static_cast<float>(channel);
 }
 
 Result rendered(const Assignment& assignment, Size film, double seconds) {
-  Result result{assignment.lease, assignment.job, assignment.tile, {}, seconds};
+  Result result{assignment.lease, assignment.job, assignment.frame, assignment.tile, {}, seconds};
   for (int pass = 0; pass < pass_count; ++pass) {
     if (!(assignment.passes & 1u << pass)) continue;
     PassImage image{.pass = pass, .rgb = {}, .counters = {}};
     for_each_pixel(tile_at(film, assignment.tile), pass, [&](std::uint32_t x, std::uint32_t y) {
-      for (int c = 0; c < 3; ++c) image.rgb.push_back(made_up_value(assignment.job, x, y, c));
+      for (int c = 0; c < 3; ++c)
+        image.rgb.push_back(made_up_value({assignment.job, assignment.frame}, x, y, c));
       image.counters.primary += 1;
       image.counters.shadow += x;
     });
@@ -25,11 +26,11 @@ Result rendered(const Assignment& assignment, Size film, double seconds) {
   return result;
 }
 
-ZeroedVector<float> made_up_picture(JobId job, Size film) {
+ZeroedVector<float> made_up_picture(JobId job, Size film, std::uint32_t frame) {
   ZeroedVector<float> picture;
   for (std::uint32_t y = 0; y < film.height; ++y)
     for (std::uint32_t x = 0; x < film.width; ++x)
-      for (int c = 0; c < 3; ++c) picture.push_back(made_up_value(job, x, y, c));
+      for (int c = 0; c < 3; ++c) picture.push_back(made_up_value({job, frame}, x, y, c));
   return picture;
 }
 
@@ -50,6 +51,11 @@ JobSpec job_of(Size film, std::string name, std::string scene_hash) {
   return spec;
 }
 
+bool add_frame(Farm& farm, JobId job, std::uint32_t frame, FarmTime now) {
+  auto scene = std::make_shared<const std::vector<std::uint8_t>>(3, std::uint8_t{7});
+  return farm.add_frame({job, frame}, "scene " + std::to_string(frame), std::move(scene), now);
+}
+
 struct FakeWorker::Desk {
   std::vector<ToWorker> messages;
   std::vector<Assignment> held;
@@ -62,7 +68,7 @@ struct FakeWorker::Desk {
       for (const LeaseId lease : revoke->leases)
         std::erase_if(held, [&](auto& a) { return a.lease == lease; });
     } else {
-      if (const auto* job = std::get_if<JobStart>(&message))
+      if (const auto* job = std::get_if<FrameStart>(&message))
         jobs[job->job] = {job->settings.width, job->settings.height};
       messages.push_back(std::move(message));
     }

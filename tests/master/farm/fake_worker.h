@@ -9,16 +9,18 @@
 
 namespace rayfarm {
 
-/// What the fake workers "render": a different value for each job, pixel and channel.
-float made_up_value(JobId job, std::uint32_t x, std::uint32_t y, int channel);
+/// What the fake workers "render": a different value for each frame, pixel and channel.
+float made_up_value(FrameId frame, std::uint32_t x, std::uint32_t y, int channel);
 /// What an honest worker answers to an assignment.
 Result rendered(const Assignment& assignment, Size film, double seconds = 1);
 /// The whole picture, as the farm's film must be in the end.
-ZeroedVector<float> made_up_picture(JobId job, Size film);
+ZeroedVector<float> made_up_picture(JobId job, Size film, std::uint32_t frame = 0);
 /// What the counters of a whole picture must sum up to.
 RayCounters made_up_counters(Size film);
 
 JobSpec job_of(Size film, std::string name = "picture", std::string scene_hash = "scene");
+/// The frame's scene comes; all have the same size.
+bool add_frame(Farm& farm, JobId job, std::uint32_t frame, FarmTime now = {});
 
 class FakeWorker {
  public:

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr Size four_tiles{128, 128};
 
-WorkerInfo remote(std::string name) { return {.name = std::move(name), .threads = 2}; }
+WorkerInfo remote(std::string name) { return {.name = std::move(name), .threads = 4}; }
 
 std::vector<std::string> warnings_of(Farm& farm) {
   std::vector<std::string> warnings;
@@ -96,6 +96,7 @@ TEST(Farm, AWrongResultThrowsCommitsNothingAndEndsTheLease) {
   const std::vector<std::function<void(Result&)>> lies{
       [](Result& r) { r.job = JobId{2}; },
       [](Result& r) { r.job = JobId{77}; },
+      [](Result& r) { r.frame = 1; },
       [](Result& r) { r.tile ^= 1; },
       [](Result& r) { r.tile = 1'000'000; },
       [](Result& r) { r.images.clear(); },
@@ -168,7 +169,7 @@ TEST(Farm, AJobThatEveryWorkerGaveBackHasFailed) {
   EXPECT_EQ(farm.job(job, 1s)->state, JobState::running);
   farm.receive(second.id(), GiveBack{{second.held().at(0).lease}, "out of memory"}, 1s);
   EXPECT_EQ(farm.job(job, 1s)->state, JobState::failed);
-  EXPECT_EQ(farm.job(job, 1s)->message, "worker second: out of memory");
+  EXPECT_EQ(farm.job(job, 1s)->message, "no worker can render it; worker second: out of memory");
   EXPECT_EQ(warnings_of(farm).size(), 1u);
 }
 

@@ -97,7 +97,7 @@ TEST(Farm, LeasesWithoutAResultAreCounted) {
   FakeWorker worker(farm, pc());
   const JobId job = farm.submit(job_of({640, 64}), 0s);
   farm.remove_worker(worker.id(), "gone", 1s);
-  EXPECT_EQ(farm.job(job, 1s)->tiles_given_back, 4u);
+  EXPECT_EQ(farm.job(job, 1s)->tiles_given_back, 2u);
 }
 
 TEST(Farm, EachEventIsOneLineThatSaysWhoAndWhy) {
@@ -118,9 +118,9 @@ TEST(Farm, EachEventIsOneLineThatSaysWhoAndWhy) {
       "job 1 (flake) started",
       "job 1 (flake) paused",
       "job 1 (flake) resumed",
-      "worker pc drained; 4 tiles given back",
+      "worker pc drained; 2 tiles given back",
       "worker pc no longer drained",
-      "! worker pc lost: silent for 2 s; 4 tiles given back",
+      "! worker pc lost: silent for 2 s; 2 tiles given back",
       "worker pc joined from 10.0.0.7 with 2 threads, Xeon",
       "job 1 (flake) done in 2.5 s",
       "job 2 (picture) submitted: 64x64, 16 spp, priority 50",

@@ -45,12 +45,12 @@ TEST(Sessions, TakeAWorkerInAndGiveItWork) {
   Guest guest(master, "lab7");
   const JobId job = submit(master, one_tile);
   EXPECT_EQ(guest.receive_a<SceneData>().hash, scene_data(simple_scene()).hash);
-  EXPECT_EQ(guest.receive_a<JobStart>().job, job);
+  EXPECT_EQ(guest.receive_a<FrameStart>().job, job);
   const auto assignment = guest.receive_a<Assignment>();
   EXPECT_EQ(assignment.passes, all_passes);
-  guest.send(
-      Result{assignment.lease, job, 0, *position_tile(one_tile, 0, all_passes, [] { return false; }), 0.1});
-  EXPECT_EQ(guest.receive_a<JobEnd>().job, job);
+  guest.send(Result{assignment.lease, job, 0, 0,
+                    *position_tile(one_tile, 0, all_passes, [] { return false; }), 0.1});
+  EXPECT_EQ(guest.receive_a<FrameEnd>().job, job);
   const Film film = *master.ask([&](Farm& farm, FarmTime) { return farm.film(job); });
   EXPECT_EQ(film.rgb(), rendered(position_tile, one_tile).rgb());
 }
@@ -59,10 +59,10 @@ TEST(Sessions, RefuseAnotherProtocolAndSayWhatToDo) {
   MasterThread master;
   Peer peer(master);
   Hello hello = hello_from("lab7");
-  hello.protocol = 2;
+  hello.protocol = protocol_version + 1;
   peer.send(hello);
   EXPECT_EQ(peer.receive_a<Refused>().reason,
-            "rayfarm 0.1.0 speaks protocol 2, this master (0.1.0) protocol 1: install the same version on "
+            "rayfarm 0.1.0 speaks protocol 3, this master (0.1.0) protocol 2: install the same version on "
             "both PCs");
   peer.wait_for_end();
 }
@@ -74,7 +74,8 @@ TEST(Sessions, RefuseAPeerThatDoesNotSayHello) {
       {Bytes{'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '/', '1', '.', '1', '\r', '\n', '\r', '\n'},
        "the peer does not speak rayfarm's protocol"},
       {encode(ToMaster{hello_from("")}), "a worker needs a name: give it one with --name"},
-      {encode(ToMaster{Hello{1, "0.1.0", "lab7", "", 0}}), "a worker has 1 to 4096 threads, not 0"},
+      {encode(ToMaster{Hello{protocol_version, "0.1.0", "lab7", "", 0}}),
+       "a worker has 1 to 4096 threads, not 0"},
   };
   for (const auto& [bytes, reason] : cases) {
     Peer peer(master);
@@ -121,9 +122,9 @@ TEST(Sessions, EndWithAWorkerThatLies) {
     auto short_of_a_pass = images, short_of_a_pixel = images;
     short_of_a_pass.pop_back();
     short_of_a_pixel.back().rgb.resize(short_of_a_pixel.back().rgb.size() - 3);
-    return std::vector<Bytes>{encode(ToMaster{Result{a.lease, job, 1, images, 0.1}}),
-                              encode(ToMaster{Result{a.lease, job, 0, short_of_a_pass, 0.1}}),
-                              encode(ToMaster{Result{a.lease, job, 0, short_of_a_pixel, 0.1}}),
+    return std::vector<Bytes>{encode(ToMaster{Result{a.lease, job, 0, 1, images, 0.1}}),
+                              encode(ToMaster{Result{a.lease, job, 0, 0, short_of_a_pass, 0.1}}),
+                              encode(ToMaster{Result{a.lease, job, 0, 0, short_of_a_pixel, 0.1}}),
                               encode(ToMaster{hello_from("again")}), Bytes(100, 0xff)};
   };
   for (std::size_t i = 0; i < 5; ++i) {
