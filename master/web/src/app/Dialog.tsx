@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import "./dialog.css";
 
 interface Props {
@@ -13,7 +13,8 @@ interface Props {
 /// goes back to where it was.
 export function Dialog({ label, class: name, close, children }: Props) {
   const element = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
+  // Before anything else happens: the next key is already the dialog's.
+  useLayoutEffect(() => {
     const dialog = element.current!;
     dialog.showModal();
     return () => dialog.close();
@@ -27,6 +28,7 @@ export function Dialog({ label, class: name, close, children }: Props) {
         event.preventDefault();
         close();
       }}
+      onClose={() => element.current && close()}
       onClick={(event) => {
         if (event.target === element.current) close();
       }}
