@@ -142,6 +142,10 @@ describe("two results", () => {
   it("are flipped with Space, or while Shift is held", async () => {
     const { current, reference } = await bothColors();
     await page.keyboard.press("Shift+3");
+    await page.keyboard.press("Space");
+    await expect.poll(colorThere).toEqual(reference);
+    await screenshot(page, "comparison-flip");
+    await page.keyboard.press("Space");
     const flips: [() => Promise<void>, Color][] = [
       [() => page.keyboard.press("Space"), reference],
       [() => page.keyboard.press("Space"), current],
