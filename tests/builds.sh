@@ -7,7 +7,7 @@ top=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 first=${1:-$top/build/tests}
 targets=(rayfarm rayfarm-script rayfarm-images)
 scenes=(sphere_plane hedgehog_in_the_cage circus "sphere_flake -p depth=4" "sphere_flake -p mat=glass -p depth=3"
-  "test_scene -p light=point" "test_scene -p light=rectangle")
+  "test_scene -p light=point" "test_scene -p light=rectangle" cylinders_glow glasshenge toroids "animated_scene --frame 77")
 
 pictures=$(mktemp -d)
 trap 'rm -rf -- "$pictures"' EXIT

@@ -30,6 +30,14 @@ void serialize(Archive& archive, Checker& c) {
   archive(c.fu, c.fv, c.color);
 }
 template <class Archive>
+void serialize(Archive& archive, Stripes& s) {
+  archive(s.fu, s.fv, s.color);
+}
+template <class Archive>
+void serialize(Archive& archive, Glow& g) {
+  archive(g.shape, g.color, g.exponent);
+}
+template <class Archive>
 void serialize(Archive& archive, Operation& o) {
   enumeration(archive, o.op, CsgOp::exclusive_or);
   archive(o.children);
@@ -38,10 +46,23 @@ template <class Archive>
 void serialize(Archive& archive, Node& n) {
   archive(n.content, n.parent_from_node, n.material, n.color, n.textures);
   text(archive, n.name, max_name);
+  boolean(archive, n.no_shadow);
 }
 template <class Archive>
 void serialize(Archive& archive, PerspectiveCamera& c) {
   archive(c.from, c.direction, c.up, c.angle_deg);
+}
+template <class Archive>
+void serialize(Archive& archive, FisheyeCamera& c) {
+  archive(c.from, c.direction, c.up, c.angle_deg);
+}
+template <class Archive>
+void serialize(Archive& archive, ParabolicCamera& c) {
+  archive(c.from, c.direction, c.up, c.radius, c.size);
+}
+template <class Archive>
+void serialize(Archive& archive, OrthographicCamera& c) {
+  archive(c.from, c.direction, c.up, c.width);
 }
 template <class Archive>
 void serialize(Archive& archive, AmbientLight& l) {
@@ -58,6 +79,7 @@ void serialize(Archive& archive, RectangleLight& l) {
 template <class Archive>
 void serialize(Archive& archive, ImageDefaults& i) {
   archive(i.width, i.height, i.spp);
+  boolean(archive, i.shadows), boolean(archive, i.reflections), boolean(archive, i.refractions);
 }
 template <class Archive>
 void serialize(Archive& archive, Animation& a) {

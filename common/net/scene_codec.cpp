@@ -5,7 +5,7 @@
 namespace rayfarm {
 namespace {
 
-constexpr std::uint8_t scene_format = 1;
+constexpr std::uint8_t scene_format = 2;
 constexpr std::size_t max_raw_scene = std::size_t{1} << 30;  // bytes; max_nodes plain nodes need 0.9 GB
 
 }  // namespace

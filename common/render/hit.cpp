@@ -10,22 +10,41 @@ namespace {
 
 bool is_odd(double whole) { return whole - 2 * std::floor(whole / 2) == 1; }
 
-/// The checker's square, counted from the origin.
+/// The square of a checker or of stripes, counted from the origin.
 struct Square {
   double u, v;
+  bool is_odd() const { return rayfarm::is_odd(u + v); }
+  std::uint64_t hash() const {
+    return keyed(std::bit_cast<std::uint64_t>(u), std::bit_cast<std::uint64_t>(v));
+  }
 };
-Square square_at(const Checker& checker, const TextureCoordinates& at) {
-  return {std::floor(at.u * checker.fu), std::floor(at.v * checker.fv)};
+template <class Squares>
+Square square_at(const Squares& texture, const TextureCoordinates& at) {
+  return {std::floor(at.u * texture.fu), std::floor(at.v * texture.fv)};
 }
 
-void apply(const Checker& checker, const TextureCoordinates& at, Vec3d& color) {
-  const Square square = square_at(checker, at);
-  if (is_odd(square.u + square.v)) color = {checker.color.x, checker.color.y, checker.color.z};
+bool shows_color(const Checker& checker, const TextureCoordinates& at) {
+  return square_at(checker, at).is_odd();
 }
-
 std::uint64_t cell_hash(const Checker& checker, const TextureCoordinates& at) {
-  const Square square = square_at(checker, at);
-  return keyed(std::bit_cast<std::uint64_t>(square.u), std::bit_cast<std::uint64_t>(square.v));
+  return square_at(checker, at).hash();
+}
+
+/// The half of the square that lies towards u.
+bool is_beyond_diagonal(const Stripes& stripes, const TextureCoordinates& at) {
+  const Square square = square_at(stripes, at);
+  return at.u * stripes.fu - square.u > at.v * stripes.fv - square.v;
+}
+bool shows_color(const Stripes& stripes, const TextureCoordinates& at) {
+  return square_at(stripes, at).is_odd() == is_beyond_diagonal(stripes, at);
+}
+std::uint64_t cell_hash(const Stripes& stripes, const TextureCoordinates& at) {
+  return keyed(square_at(stripes, at).hash(), is_beyond_diagonal(stripes, at));
+}
+
+template <class Squares>
+void apply(const Squares& texture, const TextureCoordinates& at, Vec3d& color) {
+  if (shows_color(texture, at)) color = vec(texture.color);
 }
 
 }  // namespace
@@ -38,7 +57,7 @@ Hit hit_at(const World::Parts& w, const RayQuery& q, const Boundary& b) {
   const LeafSurface& surface = w.surfaces[b.leaf];
 
   Hit hit;
-  hit.t = b.t;
+  hit.t = b.t, hit.t_error = b.error;
   hit.point = place.point, hit.point_error = place.error;
   hit.normal = b.leaf_entering == b.entering ? outward : -outward;
   hit.color = surface.color;

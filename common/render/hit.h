@@ -6,7 +6,7 @@
 namespace rayfarm {
 
 struct Hit {
-  double t = 0;  // along the ray that came
+  double t = 0, t_error = 0;  // along the ray that came
   Vec3d point{};
   double point_error = 0;  // of each coordinate
   Vec3d normal{};          // unit, out of the material, whichever way the ray came

@@ -5,6 +5,16 @@ namespace rayfarm {
 template std::optional<Boundary> first_boundary(const World::Parts&, const RayQuery&, WorldWorkspace&);
 template bool is_blocked(const World::Parts&, const RayQuery&, WorldWorkspace&);
 
+std::optional<Boundary> first_blocker(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
+  std::optional<Boundary> first;
+  visit_objects(w, q, 1.0, ws, [&](const ObjectRef& ref) {
+    const std::optional<Boundary> b = blocker_in(w, ref, q, ws);
+    if (b && (!first || b->t < first->t)) first = b;
+    return true;
+  });
+  return first;
+}
+
 bool ends_inside(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {
   return std::ranges::any_of(w.endless_objects, [&](const ObjectRef& ref) {
     const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);

@@ -125,6 +125,18 @@ std::optional<Boundary> first_of_union(const World::Parts& w, const RayQuery& q,
   return std::nullopt;
 }
 
+/// The object's first boundary at t <= 1 that casts a shadow.
+template <class Csg>
+std::optional<Boundary> blocker_in(const World::Parts& w, const ObjectRef& ref, const RayQuery& q,
+                                   WorkspaceWith<Csg>& ws) {
+  const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
+  gather(items, w.leaves, q, 1.0, ws.csg);
+  Boundary b;
+  for (std::size_t next = 0; next_boundary(items, ws.csg, next, b) && b.t <= 1;)
+    if (w.surfaces[b.leaf].casts_shadow) return b;
+  return std::nullopt;
+}
+
 }  // namespace
 
 template <class Csg>
@@ -160,6 +172,7 @@ bool is_blocked(const World::Parts& w, const RayQuery& q, WorkspaceWith<Csg>& ws
   visit_objects(w, q, 1.0, ws, [&](const ObjectRef& ref) {
     const ObjectStart start = start_of(w, ref, q, 1.0, ws);
     blocked = start.has_boundary && start.first.t <= 1;
+    if (blocked && !w.all_cast_shadows) blocked = blocker_in(w, ref, q, ws).has_value();
     return !blocked;
   });
   return blocked;

@@ -8,7 +8,10 @@
 //     reflected, refracted:                     begin() to ended() of that ray, or
 //                not_traced(kind, weight, why)
 //     depth_reached()                           instead of these, when the rays may not go deeper
+//     [glowed(glow, color)]                     for each glow shell that the ray has passed: what it added
 //   ended(color)
+//
+// or, where the camera has no ray for a sample, no_ray() alone.
 #pragma once
 #include <optional>
 
@@ -37,6 +40,8 @@ struct IdleObserver {
   void lit(std::size_t /*light*/, const SampledLight&, const Vec3d& /*color*/) {}
   void not_traced(RayKind, double /*weight*/, NotTraced) {}
   void depth_reached() {}
+  void glowed(std::size_t /*glow*/, const Vec3d& /*color*/) {}
+  void no_ray() {}
   void ended(const Vec3d& /*color*/) {}
   void lost() {}
 };
@@ -83,6 +88,8 @@ struct Both {
   }
   void lost() { first.lost(), second.lost(); }
   void depth_reached() { first.depth_reached(), second.depth_reached(); }
+  void glowed(std::size_t glow, const Vec3d& color) { first.glowed(glow, color), second.glowed(glow, color); }
+  void no_ray() { first.no_ray(), second.no_ray(); }
   void ended(const Vec3d& color) { first.ended(color), second.ended(color); }
 };
 

@@ -36,6 +36,12 @@ std::string sampler_names() {
   return list;
 }
 
+void leave_out(RenderSettings& s, const ImageDefaults& scene) {
+  s.shadows = s.shadows && scene.shadows;
+  s.reflections = s.reflections && scene.reflections;
+  s.refractions = s.refractions && scene.refractions;
+}
+
 void check(const RenderSettings& s) {
   const auto number = [](auto n) { return std::to_string(n); };
   if (s.width < 1 || s.height < 1 || s.width > max_side || s.height > max_side)

@@ -30,6 +30,9 @@ struct RenderSettings {
   bool operator==(const RenderSettings&) const = default;
 };
 
+/// Switches off the effects that the scene does without.
+void leave_out(RenderSettings& settings, const ImageDefaults& scene);
+
 /// Settings that cannot be used; the message names the option and the fix.
 struct SettingsError : std::runtime_error {
   using std::runtime_error::runtime_error;

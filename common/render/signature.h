@@ -7,7 +7,7 @@
 namespace rayfarm {
 
 /// A hash of all that the rays of one sample met, in the order of the tree: solids, squares of checkers, the lights
-/// that added something.
+/// and glow shells that added something.
 class Signature : public IdleObserver {
  public:
   explicit Signature(const World::Parts& world) : world_(world) {}
@@ -21,6 +21,7 @@ class Signature : public IdleObserver {
   void lit(std::size_t light, const SampledLight&, const Vec3d& color) {
     if (color != Vec3d{}) add(light);
   }
+  void glowed(std::size_t glow, const Vec3d&) { add(glow); }
   std::uint64_t value() const { return value_; }
 
  private:

@@ -8,6 +8,7 @@
 
 #include "common/math/number.h"
 #include "common/render/camera_rays.h"
+#include "common/render/glow.h"
 #include "common/render/hit.h"
 #include "common/render/observer.h"
 #include "common/render/sampler.h"
@@ -41,12 +42,18 @@ class Tracer {
                vec(world.scene().background)} {}
   Tracer(Observer observer, State state) : observer(std::move(observer)), state_(state) {}
 
-  /// The light along the ray through film point (x, y). light_point(i) says where on light i, as u and v.
+  /// The light along the ray through film point (x, y), none where the camera has no ray. light_point(i) says where
+  /// on light i, as u and v.
   template <class LightPoint>
   Vec3d radiance(double x, double y, LightPoint&& light_point) {
+    const std::optional<Ray> ray = state_.camera.ray(x, y);
+    if (!ray) {
+      observer.no_ray();
+      return {};
+    }
     place_lights(light_point);
     observer.begin(1.0);
-    return radiance(state_.camera.ray(x, y), RayKind::primary, 0, 1.0);
+    return radiance(*ray, RayKind::primary, 0, 1.0);
   }
 
   /// The same, while somebody else watches too.
@@ -55,7 +62,10 @@ class Tracer {
     return Tracer<Both<Observer, Other>, TracerState&>({observer, other}, state_).radiance(x, y, light_point);
   }
 
-  std::optional<Hit> first_hit(double x, double y) { return nearest_hit(state_.camera.ray(x, y)); }
+  std::optional<Hit> first_hit(double x, double y) {
+    const std::optional<Ray> ray = state_.camera.ray(x, y);
+    return ray ? nearest_hit(RayQuery(*ray)) : std::nullopt;
+  }
 
   const World::Parts& world() const { return state_.world; }
 
@@ -90,8 +100,7 @@ class Tracer {
     }
   }
 
-  std::optional<Hit> nearest_hit(const Ray& ray) {
-    const RayQuery query(ray);
+  std::optional<Hit> nearest_hit(const RayQuery& query) {
     const std::optional<Boundary> boundary = first_boundary(state_.world, query, state_.workspace);
     if (!boundary) return std::nullopt;
     return hit_at(state_.world, query, *boundary);
@@ -103,9 +112,15 @@ class Tracer {
       state_.stopped = state_.stopped || (state_.stop && state_.stop());
     }
     if (state_.stopped) return {};
-    const std::optional<Hit> hit = nearest_hit(ray);
+    const RayQuery query(ray);
+    const std::optional<Hit> hit = nearest_hit(query);
     observer.traced(kind, ray, depth, importance, hit);
-    const Vec3d color = hit ? radiance_at(*hit, ray, depth, importance) : radiance_of_nothing(ray);
+    Vec3d color = hit ? radiance_at(*hit, ray, depth, importance) : radiance_of_nothing(ray);
+    for (std::uint32_t i = 0; i < state_.world.glows.size(); ++i)
+      if (const std::optional<Vec3d> glow = glow_along(state_.world.glows[i], query, hit)) {
+        observer.glowed(i, *glow);
+        color += *glow;
+      }
     observer.ended(color);
     return color;
   }

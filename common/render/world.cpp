@@ -11,6 +11,7 @@ struct Inherited {
   std::optional<Vec3d> color;
   std::uint32_t material = 0;
   std::uint32_t first_texture = 0, textures = 0;  // range of Parts::textures, those of ancestors first
+  bool casts_shadow = true;
 };
 
 /// Walks the scene's tree once and fills the flat arrays.
@@ -35,6 +36,7 @@ class Builder {
     result.world_from_parent = from_above.world_from_parent * bounded(n.parent_from_node);
     result.material = n.material.value_or(from_above.material);
     if (n.color) result.color = vec(*n.color);
+    if (n.no_shadow) result.casts_shadow = false;
     if (n.textures.empty()) return result;
     // A new range, shared by all that inherits it.
     result.first_texture = static_cast<std::uint32_t>(parts_.textures.size());
@@ -45,8 +47,14 @@ class Builder {
     return result;
   }
 
-  /// Splits unions into their parts; anything else becomes an object. Returns the node after the subtree.
+  /// Splits unions into their parts; anything else but a glow shell becomes an object. Returns the node after the
+  /// subtree.
   std::uint32_t add_objects(std::uint32_t number, const Inherited& above) {
+    if (const Glow* glow = std::get_if<Glow>(&node(number).content)) {
+      parts_.glows.push_back(
+          make_glow_shell(*glow, above.world_from_parent * bounded(node(number).parent_from_node)));
+      return number + 1;
+    }
     const Operation* operation = std::get_if<Operation>(&node(number).content);
     if (operation && operation->op == CsgOp::unite) {
       const Inherited inherited = inherited_by(number, above);
@@ -115,6 +123,8 @@ class Builder {
     surface.material = inherited.material;
     surface.color = inherited.color.value_or(vec(parts_.materials[inherited.material].color));
     surface.first_texture = inherited.first_texture, surface.textures = inherited.textures;
+    surface.casts_shadow = inherited.casts_shadow;
+    parts_.all_cast_shadows = parts_.all_cast_shadows && surface.casts_shadow;
     parts_.surfaces.push_back(surface);
     return static_cast<std::uint32_t>(parts_.leaves.size() - 1);
   }

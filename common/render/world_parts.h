@@ -7,6 +7,7 @@
 #include "common/geometry/bvh.h"
 #include "common/geometry/csg.h"
 #include "common/geometry/leaf.h"
+#include "common/render/glow_shell.h"
 #include "common/render/world.h"
 
 namespace rayfarm {
@@ -16,6 +17,7 @@ struct LeafSurface {
   Vec3d color{};
   std::uint32_t material = 0;                     // index into Parts::materials
   std::uint32_t first_texture = 0, textures = 0;  // range of Parts::textures, those of ancestors first
+  bool casts_shadow = true;
 };
 
 /// A subtree of the scene that has no union above it but unions: what a ray hits first is the first of all
@@ -42,6 +44,8 @@ struct World::Parts {
   std::vector<ObjectRef> endless_objects;  // whose bounds are infinite: tried for every ray
   std::vector<ObjectRef> bounded_objects;  // in the order of the hierarchy
   Bvh bvh;
+  bool all_cast_shadows = true;
+  std::vector<GlowShell> glows;  // in the order of the tree
 
   std::span<const CsgItem> items_of(const WorldObject& object) const {
     return {items.data() + object.first_item, object.item_count};
@@ -69,9 +73,13 @@ template <class Csg>
 std::optional<Boundary> first_boundary(const World::Parts& world, const RayQuery& ray,
                                        WorkspaceWith<Csg>& workspace);
 
-/// Whether anything stands at 0 < t <= 1 of a ray that starts outside all material.
+/// Whether a surface that casts shadows stands at 0 < t <= 1 of a ray that starts outside all material.
 template <class Csg>
 bool is_blocked(const World::Parts& world, const RayQuery& ray, WorkspaceWith<Csg>& workspace);
+
+/// The first such surface, as each object alone has it.
+std::optional<Boundary> first_blocker(const World::Parts& world, const RayQuery& ray,
+                                      WorldWorkspace& workspace);
 
 /// Whether the ray's far end lies in endless material.
 bool ends_inside(const World::Parts& world, const RayQuery& ray, WorldWorkspace& workspace);

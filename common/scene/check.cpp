@@ -56,6 +56,9 @@ std::string_view name_of(CsgOp op) {
 struct KindName {
   std::string_view operator()(const Operation& o) const { return name_of(o.op); }
   std::string_view operator()(const Solid& s) const { return kind_of(s); }
+  std::string_view operator()(const Glow& g) const {
+    return std::holds_alternative<Sphere>(g.shape) ? "glow sphere" : "glow cylinder";
+  }
 };
 
 std::string place_of(const Scene& scene, std::size_t node) {
@@ -86,6 +89,12 @@ struct SolidFault {
   }
 };
 
+std::string fault_of(const Glow& glow, const Node& node) {
+  if (node.material || node.color || !node.textures.empty())
+    return "a glow shell has no surface, so no material, color or texture; it has a color of its own";
+  return std::visit(SolidFault{}, glow.shape);
+}
+
 /// What is wrong with a node, its place in the tree aside; empty when nothing is. The common case makes no
 /// text.
 std::string fault_of(const Scene& scene, const Node& node, const Affine& world_from_node) {
@@ -94,7 +103,9 @@ std::string fault_of(const Scene& scene, const Node& node, const Affine& world_f
       return "the operation must be union, intersection, difference or xor";
     if (operation->children == 0) return "an operation needs at least one child";
   } else {
-    std::string fault = std::visit(SolidFault{}, std::get<Solid>(node.content));
+    const auto* glow = std::get_if<Glow>(&node.content);
+    std::string fault =
+        glow ? fault_of(*glow, node) : std::visit(SolidFault{}, std::get<Solid>(node.content));
     if (!fault.empty()) return fault;
   }
   if (!is_invertible(node.parent_from_node))
@@ -117,11 +128,20 @@ void check_surface(const Scene& scene, std::size_t index) {
     fail(place, "at most " + std::to_string(max_textures) + " textures on a node, has " +
                     std::to_string(node.textures.size()));
   for (const Texture& texture : node.textures) {
-    const Checker& checker = std::get<Checker>(texture);
-    if (!std::isfinite(checker.fu) || !std::isfinite(checker.fv))
-      fail(place, "the checker's frequencies must be finite");
-    check_weight(checker.color, place, "the checker's color");
+    const std::string name = std::holds_alternative<Checker>(texture) ? "the checker's " : "the stripes' ";
+    std::visit(
+        [&](const auto& t) {
+          if (!std::isfinite(t.fu) || !std::isfinite(t.fv)) fail(place, name + "frequencies must be finite");
+          check_weight(t.color, place, name + "color");
+        },
+        texture);
   }
+}
+
+void check_glow(const Glow& glow, const std::string& place, bool in_unions) {
+  if (!in_unions)
+    fail(place, "a glow shell has no inside that could be cut or cut away, put it in unions only");
+  check_weight(glow.color, place, "color");
 }
 
 /// Walks the preorder with a stack of open operations, so that no depth can exhaust the program's own stack.
@@ -133,8 +153,10 @@ void check_tree(const Scene& scene) {
   struct Open {
     std::uint32_t children_left;
     Affine world_from_node;
+    bool in_unions = true;  // this and all above
   };
   std::vector<Open> open{{1, Affine{}}};
+  std::size_t glows = 0;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     while (!open.empty() && open.back().children_left == 0) open.pop_back();
     if (open.empty()) fail(place_of(scene, i), "does not belong to the tree, which is complete before it");
@@ -144,12 +166,18 @@ void check_tree(const Scene& scene) {
     const std::string fault = fault_of(scene, scene.nodes[i], world_from_node);
     if (!fault.empty()) fail(place_of(scene, i), fault);
     check_surface(scene, i);
+    if (const auto* glow = std::get_if<Glow>(&scene.nodes[i].content)) {
+      check_glow(*glow, place_of(scene, i), open.back().in_unions);
+      if (++glows > max_glows)
+        fail(place_of(scene, i), "at most " + std::to_string(max_glows) + " glow shells are allowed");
+    }
 
     if (const auto* operation = std::get_if<Operation>(&scene.nodes[i].content)) {
       if (open.size() >= max_tree_depth)
         fail(place_of(scene, i),
              "is nested too deep, at most " + std::to_string(max_tree_depth) + " levels are allowed");
-      open.push_back({operation->children, world_from_node});
+      const bool in_unions = open.back().in_unions && operation->op == CsgOp::unite;
+      open.push_back({operation->children, world_from_node, in_unions});
     }
   }
   for (const Open& o : open)
@@ -175,19 +203,42 @@ glm::dvec3 scaled(const glm::dvec3& v) {
   return largest == 0 ? v : v / largest;
 }
 
-void check_camera(const PerspectiveCamera& camera) {
+struct LensCheck {
+  void operator()(const PerspectiveCamera& c) const {
+    if (!(c.angle_deg > 0 && c.angle_deg < 180))
+      fail("camera", "angle must be above 0 and below 180 degrees, is " + text(c.angle_deg));
+  }
+  void operator()(const FisheyeCamera& c) const {
+    if (!(c.angle_deg > 0 && c.angle_deg <= 360))
+      fail("camera", "angle must be above 0 and at most 360 degrees, is " + text(c.angle_deg));
+  }
+  void operator()(const ParabolicCamera& c) const {
+    check_positive(c.radius, "camera", "radius");
+    check_weight(c.size, "camera", "size");
+  }
+  void operator()(const OrthographicCamera& c) const { check_positive(c.width, "camera", "width"); }
+};
+
+void check_axes(const glm::dvec3& direction, const glm::dvec3& upwards) {
   const std::string place = "camera";
-  check_finite(camera.from, place, "from");
-  check_finite(camera.direction, place, "direction");
-  check_finite(camera.up, place, "up");
-  const glm::dvec3 d = scaled(camera.direction), up = scaled(camera.up), side = glm::cross(d, up);
+  check_finite(direction, place, "direction");
+  check_finite(upwards, place, "up");
+  const glm::dvec3 d = scaled(direction), up = scaled(upwards), side = glm::cross(d, up);
   if (d == glm::dvec3(0.0)) fail(place, "direction must not be zero");
   if (up == glm::dvec3(0.0)) fail(place, "up must not be zero");
   constexpr double least_sine = 1e-10;  // below, rounding decides where up is
   if (glm::dot(side, side) <= least_sine * least_sine * glm::dot(d, d) * glm::dot(up, up))
     fail(place, "direction must not be parallel to up, give another up such as {0, 0, 1}");
-  if (!(camera.angle_deg > 0 && camera.angle_deg < 180))
-    fail(place, "angle must be above 0 and below 180 degrees, is " + text(camera.angle_deg));
+}
+
+void check_camera(const Camera& camera) {
+  std::visit(
+      [](const auto& c) {
+        check_finite(c.from, "camera", "from");
+        check_axes(c.direction, c.up);
+      },
+      camera);
+  std::visit(LensCheck{}, camera);
 }
 
 struct LightCheck {
@@ -221,7 +272,7 @@ void check(const Scene& scene) {
   check_tree(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     check_material(scene.materials[i], "material " + std::to_string(i));
-  check_camera(std::get<PerspectiveCamera>(scene.camera));
+  check_camera(scene.camera);
   check_weight(scene.background, "background", "color");
 
   if (scene.lights.size() > max_lights)

@@ -37,7 +37,14 @@ struct Checker {
   glm::dvec3 color{1.0};
   bool operator==(const Checker&) const = default;
 };
-using Texture = std::variant<Checker>;
+/// Cells as a checker's, each halved along its diagonal: `color` shows where the cell is odd and frac(u * fu) >
+/// frac(v * fv), and where neither holds; elsewhere stays what was there.
+struct Stripes {
+  double fu = 1, fv = 1;
+  glm::dvec3 color{1.0};
+  bool operator==(const Stripes&) const = default;
+};
+using Texture = std::variant<Checker, Stripes>;
 
 // The tree.
 
@@ -48,26 +55,72 @@ struct Operation {
   bool operator==(const Operation&) const = default;
 };
 
+/// A shell of light around a place: a sphere, or a tube without ends. A ray that comes in through it goes on
+/// unchanged and gains color * (1 - s)^exponent, where s is the sine of the angle between the ray and the normal, in
+/// local space and for a tube across its axis: 0 in the middle of its outline, 1 at the rim. It has no inside (so it
+/// stands only in unions), casts no shadow, and its far side does not glow.
+struct Glow {
+  std::variant<Sphere, Cylinder> shape;
+  glm::dvec3 color{1.0};
+  std::uint32_t exponent = 16;
+  bool operator==(const Glow&) const = default;
+};
+
+using NodeContent = std::variant<Operation, Solid, Glow>;
+
 struct Node {
-  std::variant<Operation, Solid> content;
+  NodeContent content;
   Affine parent_from_node;
   std::optional<std::uint32_t> material;  // index into Scene::materials; inherited by what is below
   std::optional<glm::dvec3> color;  // stands above any material's colour, also above one set further down
   std::vector<Texture> textures;    // those of ancestors come first
   std::string name;
+  bool no_shadow = false;  // light passes the surfaces of all that is below
   bool operator==(const Node&) const = default;
 };
 
-// Cameras and lights.
+// Cameras and lights. All cameras have a place and look along `direction` (any length > 0) with `up` upwards.
 
 struct PerspectiveCamera {
   glm::dvec3 from{0.0};
-  glm::dvec3 direction{0.0, 0.0, 1.0};  // any length > 0
+  glm::dvec3 direction{0.0, 0.0, 1.0};
   glm::dvec3 up{0.0, 1.0, 0.0};
   double angle_deg = 50;  // horizontal, full, 0 < angle < 180
   bool operator==(const PerspectiveCamera&) const = default;
 };
-using Camera = std::variant<PerspectiveCamera>;
+
+// The pictures of the next two are discs, as large as the film allows, in its middle; around them there is no ray and
+// the film is black. Below, r is the distance from the film's middle.
+
+/// The angle to `direction` grows evenly with r.
+struct FisheyeCamera {
+  glm::dvec3 from{0.0};
+  glm::dvec3 direction{0.0, 0.0, 1.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double angle_deg = 180;  // across the disc, 0 < angle <= 360
+  bool operator==(const FisheyeCamera&) const = default;
+};
+/// What a parabolic mirror shows that has its focus at `from`. At film point (u, v), r = |(u, v)| and `radius` at the
+/// disc's edge, the ray starts on the mirror at from + size * (u, v, (1 - r^2) / 2) in direction
+/// (2u, 2v, 1 - r^2) / (1 + r^2), in axes right, up, forward: 90 degrees from `direction` where r = 1.
+struct ParabolicCamera {
+  glm::dvec3 from{0.0};
+  glm::dvec3 direction{0.0, 0.0, 1.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double radius = 1;  // > 0
+  double size = 0;    // >= 0, a length
+  bool operator==(const ParabolicCamera&) const = default;
+};
+
+/// Parallel rays; the film stands at `from`, `width` wide.
+struct OrthographicCamera {
+  glm::dvec3 from{0.0};
+  glm::dvec3 direction{0.0, 0.0, 1.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double width = 2;  // > 0, a length
+  bool operator==(const OrthographicCamera&) const = default;
+};
+using Camera = std::variant<PerspectiveCamera, FisheyeCamera, ParabolicCamera, OrthographicCamera>;
 
 struct AmbientLight {
   glm::dvec3 intensity{1.0};
@@ -93,6 +146,7 @@ using Light = std::variant<AmbientLight, PointLight, RectangleLight>;
 /// What the scene asks for; the command line stands above it, the built-in default below.
 struct ImageDefaults {
   std::optional<std::uint32_t> width, height, spp;
+  bool shadows = true, reflections = true, refractions = true;  // what is false here nobody can switch on
   bool operator==(const ImageDefaults&) const = default;
 };
 struct Animation {
@@ -119,6 +173,7 @@ struct SceneError : std::runtime_error {
 constexpr std::size_t max_nodes = 8'000'000;
 constexpr std::uint32_t max_tree_depth = 256;
 constexpr std::size_t max_lights = 1024;
+constexpr std::size_t max_glows = 1024;
 constexpr std::size_t max_textures = 16;  // of one node
 
 /// Throws SceneError unless the scene can be rendered: the tree closes, indices are in range, numbers are

@@ -78,6 +78,7 @@ RenderSettings settings_of(const PictureOptions& o, const ImageDefaults& scene) 
   s.max_depth = o.max_depth.value_or(s.max_depth);
   s.min_importance = o.min_importance.value_or(s.min_importance);
   s.shadows = !o.no_shadows, s.reflections = !o.no_reflections, s.refractions = !o.no_refractions;
+  leave_out(s, scene);
   check(s);
   return s;
 }

@@ -27,6 +27,7 @@ class PixelObserver : public CountingObserver {
     CountingObserver::traced(kind, ray, depth, importance, hit);
     if (kind == RayKind::primary) met(hit);
   }
+  void no_ray() { met(std::nullopt); }
 
   /// To be called for each sample that visit_samples() visits.
   void visited(const TakenSample& sample) {

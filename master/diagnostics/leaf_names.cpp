@@ -13,6 +13,7 @@ std::size_t add_names(const Scene& scene, std::size_t number, const std::string&
     names.push_back(above + own + " #" + std::to_string(names.size()));
     return number + 1;
   }
+  if (std::holds_alternative<Glow>(node.content)) return number + 1;  // is no leaf
   const std::string path = node.name.empty() ? above : above + node.name + "/";
   const std::uint32_t children = std::get<Operation>(node.content).children;
   std::size_t next = number + 1;

@@ -7,17 +7,10 @@
 #include "common/work/each_tile.h"
 
 namespace rayfarm {
-CameraAxes axes_of(const CameraRays& camera, Size film) {
-  const double x = film.width, y = film.height;
-  const auto towards = [&](double px, double py) { return camera.ray(px, py).direction; };
-  return {normalized(towards(x, y / 2) - towards(0, y / 2)),
-          normalized(towards(x / 2, 0) - towards(x / 2, y)), towards(x / 2, y / 2)};
-}
 
 MapView view_of(const World& world, const RenderSettings& settings, bool compatible) {
-  const Size film{settings.width, settings.height};
-  const CameraRays camera(world.scene().camera, film);
-  return {axes_of(camera, film), camera.ray(0, 0).origin, compatible};
+  const CameraRays camera(world.scene().camera, {settings.width, settings.height});
+  return {camera.axes(), camera.from(), compatible};
 }
 
 PixelMapper::PixelMapper(const World& world, const RenderSettings& settings, const MapRequest& request)

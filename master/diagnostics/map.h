@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/render/camera_rays.h"
 #include "common/render/settings.h"
 #include "master/diagnostics/collect.h"
 
@@ -24,7 +23,6 @@ struct Map {
   std::vector<float> values;  // row-major, `channels` a pixel; infinite where the pixel shows nothing
 };
 
-CameraAxes axes_of(const CameraRays& camera, Size film);
 MapView view_of(const World& world, const RenderSettings& settings, bool compatible);
 
 /// The values of one pixel after another, in one thread. Only what the map asks for is traced.

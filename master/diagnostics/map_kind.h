@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/render/camera_rays.h"
 #include "common/render/counters.h"
 #include "master/diagnostics/surfaces.h"
 
@@ -29,11 +30,6 @@ struct PixelFacts {
   RayCounters rays;                // of source surfaces: primary and primary_hits alone
   std::optional<Surface> surface;  // as reduced; none where the pixel shows nothing
   double seconds = 0;              // of source time
-};
-
-/// Unit, at right angles.
-struct CameraAxes {
-  Vec3d right{}, up{}, forward{};
 };
 
 /// What a map's values refer to beside the pixel.

@@ -56,6 +56,7 @@ json json_of(const RayRecord& ray, const std::vector<std::string>& names) {
               {"end", end_of(ray)},
               {"hit", nullptr},
               {"lights", json::array()},
+              {"glows", json::array()},
               {"rays", json::array()},
               {"not_traced", json::array()}};
   if (ray.hit)
@@ -67,6 +68,8 @@ json json_of(const RayRecord& ray, const std::vector<std::string>& names) {
                      {"surface_color", json_of(ray.hit->surface_color)},
                      {"entering", ray.hit->entering}};
   for (const LightAtHit& light : ray.lights) object["lights"].push_back(json_of(light, names));
+  for (const GlowOnRay& glow : ray.glows)
+    object["glows"].push_back({{"glow", glow.glow}, {"color", json_of(glow.color)}});
   for (const RayRecord& followed : ray.followed) object["rays"].push_back(json_of(followed, names));
   for (const Untraced& u : ray.untraced)
     object["not_traced"].push_back(

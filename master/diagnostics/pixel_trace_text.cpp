@@ -57,13 +57,14 @@ class Writer {
     std::string words = std::string(name_of(ray.kind)) + " ray from " + shown(ray.origin) + " weight " +
                         shown(ray.weight) + " importance " + shown(ray.importance) + " adds " +
                         shown(ray.color * ray.importance);
-    if (!ray.hit) {
+    if (ray.hit)
+      line(level, words + ": " + (ray.hit->entering ? "enters " : "leaves ") + names_[ray.hit->leaf] +
+                      " at " + shown(ray.hit->point) + " after " + shown(ray.hit->distance) + ", normal " +
+                      shown(ray.hit->normal));
+    else
       line(level, words + ": missed, towards " + shown(ray.direction));
-      return;
-    }
-    line(level, words + ": " + (ray.hit->entering ? "enters " : "leaves ") + names_[ray.hit->leaf] + " at " +
-                    shown(ray.hit->point) + " after " + shown(ray.hit->distance) + ", normal " +
-                    shown(ray.hit->normal));
+    for (const GlowOnRay& glow : ray.glows)
+      line(level + 1, "through glow shell " + std::to_string(glow.glow) + " adds " + shown(glow.color));
     for (const LightAtHit& light : ray.lights) add(light, level + 1);
     for (const RayRecord& followed : ray.followed) add(followed, level + 1);
     for (const Untraced& untraced : ray.untraced)

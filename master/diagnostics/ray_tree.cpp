@@ -31,7 +31,7 @@ class Recorder : public IdleObserver {
     shadow_ = {blocked, std::nullopt};
     if (!blocked) return;
     const RayQuery query(ray);
-    if (const auto first = first_boundary(*world_, query, workspace_); first && first->t <= 1)
+    if (const auto first = first_blocker(*world_, query, workspace_))
       shadow_.blocker = Blocker{first->leaf, hit_at(*world_, query, *first).point};
   }
   void lit(std::size_t light, const SampledLight& sampled, const Vec3d& color) {
@@ -45,6 +45,12 @@ class Recorder : public IdleObserver {
   void depth_reached() {
     if (!closed_) record().depth_reached = true;
   }
+  void glowed(std::size_t glow, const Vec3d& color) {
+    if (!closed_) record().glows.push_back({glow, color});
+  }
+  void no_ray() {
+    if (!closed_) roots_.emplace_back();
+  }
   void ended(const Vec3d& color) {
     if (closed_) return;
     record().color = color;
@@ -56,8 +62,9 @@ class Recorder : public IdleObserver {
     closed_ = closed_ || (limits_->stop && limits_->stop());
     return closed_;
   }
-  /// The trees of the primary rays in their order; of the last one of a closed recorder, what there is of it.
-  std::vector<RayRecord> take_roots() {
+  /// The samples' trees in their order, nothing where there was no ray; of the last one of a closed recorder, what
+  /// there is of it.
+  std::vector<std::optional<RayRecord>> take_roots() {
     while (!open_.empty())
       if (open_.back().is_traced)
         hand_up();
@@ -87,7 +94,10 @@ class Recorder : public IdleObserver {
   void hand_up() {
     RayRecord done = std::move(record());
     open_.pop_back();
-    (open_.empty() ? roots_ : record().followed).push_back(std::move(done));
+    if (open_.empty())
+      roots_.push_back(std::move(done));
+    else
+      record().followed.push_back(std::move(done));
   }
   LightFate fate_of(const SampledLight& light) {
     if (light.is_ambient) return LightFate::ambient;
@@ -101,10 +111,15 @@ class Recorder : public IdleObserver {
   WorldWorkspace workspace_;
   std::size_t rays_ = 0;
   bool closed_ = false;
-  std::vector<RayRecord> roots_;
+  std::vector<std::optional<RayRecord>> roots_;
   std::vector<Open> open_;  // from the primary ray to the one being traced
   Shadow shadow_;           // of the light that comes next
 };
+
+[[noreturn]] void refuse_sample(const std::string& wanted, std::uint32_t samples) {
+  throw SettingsError("the sample must be a number from 0 to " + std::to_string(samples - 1) +
+                      ", all or centre, is " + wanted);
+}
 
 /// One pixel's samples being recorded.
 struct Recording {
@@ -135,26 +150,23 @@ struct Recording {
     tracer.radiance(x, y, [](std::uint32_t) { return Sample2D{0.5, 0.5}; });
     samples.push_back({std::nullopt, x, y, 1, {}});
   }
-  TracedSamples finish() {
-    std::vector<RayRecord> roots = tracer.observer.take_roots();
-    samples.resize(std::min(samples.size(), roots.size()));  // one may have been stopped before its first ray
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ray = std::move(roots[i]);
-    return {std::move(samples), tracer.observer.is_closed()};
+  /// Of all of an adaptive sampler's, which are known only when all are traced, `only` one may be wanted.
+  TracedSamples finish(std::optional<std::uint32_t> only) {
+    std::vector<std::optional<RayRecord>> roots = tracer.observer.take_roots();
+    const bool truncated = tracer.observer.is_closed();
+    const std::size_t there =
+        std::min(samples.size(), roots.size());  // the last may have been stopped at once
+    if (only && *only >= there && !truncated)
+      refuse_sample(std::to_string(*only), static_cast<std::uint32_t>(there));
+    TracedSamples traced{{}, truncated};
+    for (std::size_t i = 0; i < there; ++i) {
+      if (!roots[i] || (only && *only != i)) continue;
+      samples[i].ray = std::move(*roots[i]);
+      traced.samples.push_back(std::move(samples[i]));
+    }
+    return traced;
   }
 };
-
-[[noreturn]] void refuse_sample(const std::string& wanted, std::uint32_t samples) {
-  throw SettingsError("the sample must be a number from 0 to " + std::to_string(samples - 1) +
-                      ", all or centre, is " + wanted);
-}
-
-/// Of all of an adaptive sampler's, which are known only when all are traced.
-TracedSamples one_of(TracedSamples all, std::uint32_t number) {
-  const auto there = static_cast<std::uint32_t>(all.samples.size());
-  if (number >= there && !all.truncated) refuse_sample(std::to_string(number), there);
-  if (number >= there) return {{}, true};
-  return {{std::move(all.samples[number])}, all.truncated};
-}
 
 void check_pixel(Pixel pixel, const RenderSettings& s) {
   const auto text = [](std::uint32_t x, std::uint32_t y) {
@@ -190,8 +202,7 @@ TracedSamples traced_samples(const World& world, const RenderSettings& settings,
       Overload{[&](std::uint32_t n) { is_one ? recording.add_one(n) : recording.add_all(); },
                [&](EverySample) { recording.add_all(); }, [&](PixelCentre) { recording.add_centre(); }},
       choice);
-  TracedSamples traced = recording.finish();
-  return number && !is_one ? one_of(std::move(traced), *number) : traced;
+  return recording.finish(number && !is_one ? std::optional(*number) : std::nullopt);
 }
 
 }  // namespace rayfarm

@@ -36,6 +36,12 @@ struct LightAtHit {
   std::optional<Blocker> blocker;  // none for a surface that lies within another solid, up to rounding
 };
 
+/// What a glow shell that the ray passed added to its colour.
+struct GlowOnRay {
+  std::size_t glow = 0;  // number among the scene's
+  Vec3d color{};
+};
+
 /// A reflected or refracted ray that the material asks for and that was not traced.
 struct Untraced {
   RayKind kind = RayKind::reflected;
@@ -52,6 +58,7 @@ struct RayRecord {
   Vec3d color{};  // the light along it: the background's if it hit nothing
   std::optional<RayHit> hit;
   std::vector<LightAtHit> lights;
+  std::vector<GlowOnRay> glows;
   std::vector<RayRecord> followed;  // reflected, then refracted
   std::vector<Untraced> untraced;
   bool depth_reached = false;  // so nothing was followed
@@ -82,8 +89,8 @@ struct TracedSamples {
   bool truncated = false;  // rays are missing from here on; those on the way to them have no colour
 };
 
-/// Samples of the pixel as the render traced them: the same rays and bits. Throws SettingsError for what the
-/// picture has not got.
+/// Samples of the pixel as the render traced them: the same rays and bits; without those for which the camera has no
+/// ray. Throws SettingsError for what the picture has not got.
 TracedSamples traced_samples(const World& world, const RenderSettings& settings, Pixel pixel,
                              const SampleChoice& choice, const RecordLimits& limits = {});
 

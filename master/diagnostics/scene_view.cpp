@@ -16,13 +16,31 @@ json json_of(const Vector& v) {
   return {v.x, v.y, v.z};
 }
 
+/// What a camera has beside its place and directions.
+json json_of_lens(const Camera& camera) {
+  return std::visit(Overload{[](const PerspectiveCamera& c) {
+                               return json{{"kind", "perspective"}, {"angle_deg", c.angle_deg}};
+                             },
+                             [](const FisheyeCamera& c) {
+                               return json{{"kind", "fisheye"}, {"angle_deg", c.angle_deg}};
+                             },
+                             [](const ParabolicCamera& c) {
+                               return json{{"kind", "parabolic"}, {"radius", c.radius}, {"size", c.size}};
+                             },
+                             [](const OrthographicCamera& c) {
+                               return json{{"kind", "orthographic"}, {"width", c.width}};
+                             }},
+                    camera);
+}
+
 json json_of_camera(const Camera& camera) {
-  const auto& c = std::get<PerspectiveCamera>(camera);
-  return {{"kind", "perspective"},
-          {"from", json_of(c.from)},
-          {"direction", json_of(c.direction)},
-          {"up", json_of(c.up)},
-          {"angle_deg", c.angle_deg}};
+  json all = json_of_lens(camera);
+  std::visit(
+      [&](const auto& c) {
+        all["from"] = json_of(c.from), all["direction"] = json_of(c.direction), all["up"] = json_of(c.up);
+      },
+      camera);
+  return all;
 }
 
 json json_of_light(const Light& light) {

@@ -42,7 +42,9 @@ RenderSettings settings_for(const json& given, const ImageDefaults& image) {
   if (image.height) all["height"] = *image.height;
   if (image.spp) all["spp"] = *image.spp;
   all.update(given);
-  return settings_from_json(all);
+  RenderSettings settings = settings_from_json(all);
+  leave_out(settings, image);
+  return settings;
 }
 
 json to_json(const ScriptParameter& p) {

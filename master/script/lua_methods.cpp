@@ -139,6 +139,13 @@ int set_texture(lua_State* L) {
   return 1;
 }
 
+int set_no_shadow(lua_State* L) {
+  self(L, "no_shadow");
+  check_count(L, 0, "no_shadow", "nothing");
+  push_copy(L, 1).no_shadow = true;
+  return 1;
+}
+
 int set_name(lua_State* L) {
   self(L, "name");
   check_count(L, 1, "name", "one string");
@@ -150,10 +157,12 @@ int set_name(lua_State* L) {
 
 const std::vector<luaL_Reg>& methods() {
   static const std::vector<luaL_Reg> all{
-      {"translate", guarded<translate>}, {"scale", guarded<scale>},           {"rotate_x", guarded<rotate_x>},
-      {"rotate_y", guarded<rotate_y>},   {"rotate_z", guarded<rotate_z>},     {"rotate", guarded<rotate>},
-      {"matrix", guarded<matrix>},       {"material", guarded<set_material>}, {"color", guarded<set_color>},
-      {"texture", guarded<set_texture>}, {"name", guarded<set_name>}};
+      {"translate", guarded<translate>},     {"scale", guarded<scale>},
+      {"rotate_x", guarded<rotate_x>},       {"rotate_y", guarded<rotate_y>},
+      {"rotate_z", guarded<rotate_z>},       {"rotate", guarded<rotate>},
+      {"matrix", guarded<matrix>},           {"material", guarded<set_material>},
+      {"color", guarded<set_color>},         {"texture", guarded<set_texture>},
+      {"no_shadow", guarded<set_no_shadow>}, {"name", guarded<set_name>}};
   return all;
 }
 

@@ -14,13 +14,16 @@ const Signature plane_signature{"plane", {}};
 const Signature cylinder_signature{"cylinder", {"zmin", "zmax"}, 2};
 const Signature cone_signature{"cone", {"zmin", "zmax"}, 2};
 const Signature torus_signature{"torus", {"R", "r"}, 2};
+const Signature glow_sphere_signature{"glow_sphere", {"color", "exponent"}};
+const Signature glow_cylinder_signature{"glow_cylinder", {"zmin", "zmax", "color", "exponent"}, 2};
 
-int push_solid(lua_State* L, const Solid& solid) {
+int push_content(lua_State* L, const NodeContent& content) {
   NodeValue node;
-  node.content = solid;
+  node.content = content;
   push_node(L, node);
   return 1;
 }
+int push_solid(lua_State* L, const Solid& solid) { return push_content(L, solid); }
 
 int make_sphere(lua_State* L) {
   const Fields none(L, 1, sphere_signature);
@@ -36,23 +39,39 @@ int make_plane(lua_State* L) {
 }
 /// A solid about the z axis between two limits.
 template <class S>
-int make_limited(lua_State* L, const Signature& signature) {
-  const Fields fields(L, 1, signature);
+S read_limited(const Fields& fields) {
   S solid;
   solid.z_min = fields.number("zmin", solid.z_min, Range::infinite_too);
   solid.z_max = fields.number("zmax", solid.z_max, Range::infinite_too);
-  if (!(solid.z_min < solid.z_max))
-    throw SceneError(std::string(signature.function) + ": zmin must be below zmax");
-  return push_solid(L, solid);
+  if (!(solid.z_min < solid.z_max)) throw SceneError(fields.function() + ": zmin must be below zmax");
+  return solid;
 }
-int make_cylinder(lua_State* L) { return make_limited<Cylinder>(L, cylinder_signature); }
-int make_cone(lua_State* L) { return make_limited<Cone>(L, cone_signature); }
+int make_cylinder(lua_State* L) {
+  return push_solid(L, read_limited<Cylinder>(Fields(L, 1, cylinder_signature)));
+}
+int make_cone(lua_State* L) { return push_solid(L, read_limited<Cone>(Fields(L, 1, cone_signature))); }
 int make_torus(lua_State* L) {
   const Fields fields(L, 1, torus_signature);
   Torus torus;
   torus.R = fields.number("R", torus.R, Range::positive);
   torus.r = fields.number("r", torus.r, Range::positive);
   return push_solid(L, torus);
+}
+
+// Glow shells. ----------------------------------------------------------------------------------------------
+
+template <class Shape>
+int push_glow(lua_State* L, const Fields& fields, const Shape& shape) {
+  Glow glow;
+  glow.shape = shape;
+  glow.color = fields.color("color", glow.color);
+  glow.exponent = fields.integer("exponent", glow.exponent, 0, max_exponent);
+  return push_content(L, glow);
+}
+int make_glow_sphere(lua_State* L) { return push_glow(L, Fields(L, 1, glow_sphere_signature), Sphere{}); }
+int make_glow_cylinder(lua_State* L) {
+  const Fields fields(L, 1, glow_cylinder_signature);
+  return push_glow(L, fields, read_limited<Cylinder>(fields));
 }
 
 // Set operations. -------------------------------------------------------------------------------------------
@@ -120,6 +139,7 @@ class TreeWriter {
     node.content = value.content;
     node.parent_from_node = value.parent_from_node;
     node.color = value.color;
+    node.no_shadow = value.no_shadow;
     if (value.material) node.material = number_of(*value.material);
     append_textures(index, node);
     if (lua_getiuservalue(L_, index, Companion::name) == LUA_TSTRING) node.name = lua_tostring(L_, -1);
@@ -172,6 +192,8 @@ void open_nodes(lua_State* L) {
   lua_register(L, "cylinder", guarded<make_cylinder>);
   lua_register(L, "cone", guarded<make_cone>);
   lua_register(L, "torus", guarded<make_torus>);
+  lua_register(L, "glow_sphere", guarded<make_glow_sphere>);
+  lua_register(L, "glow_cylinder", guarded<make_glow_cylinder>);
   lua_register(L, "union", guarded<make_union>);
   lua_register(L, "intersection", guarded<make_intersection>);
   lua_register(L, "difference", guarded<make_difference>);
@@ -179,9 +201,10 @@ void open_nodes(lua_State* L) {
 }
 
 const std::vector<Signature>& node_signatures() {
-  static const std::vector<Signature> all{
-      sphere_signature, cube_signature, plane_signature,      cylinder_signature, cone_signature,
-      torus_signature,  {"union", {}},  {"intersection", {}}, {"difference", {}}, {"xor", {}}};
+  static const std::vector<Signature> all{sphere_signature,      cube_signature,          plane_signature,
+                                          cylinder_signature,    cone_signature,          torus_signature,
+                                          glow_sphere_signature, glow_cylinder_signature, {"union", {}},
+                                          {"intersection", {}},  {"difference", {}},      {"xor", {}}};
   return all;
 }
 

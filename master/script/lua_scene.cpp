@@ -10,12 +10,16 @@ namespace {
 const Signature phong_signature{
     "phong", {"color", "ambient", "diffuse", "specular", "exponent", "transmission", "index", "schlick"}};
 const Signature checker_signature{"checker", {"fu", "fv", "color"}, 3};
+const Signature stripes_signature{"stripes", {"fu", "fv", "color"}, 3};
 const Signature perspective_signature{"perspective", {"from", "direction", "up", "angle"}};
+const Signature fisheye_signature{"fisheye", {"from", "direction", "up", "angle"}};
+const Signature parabolic_signature{"parabolic", {"from", "direction", "up", "radius", "size"}};
+const Signature orthographic_signature{"orthographic", {"from", "direction", "up", "width"}};
 const Signature ambient_signature{"ambient", {}};
 const Signature point_signature{"point", {"at", "intensity"}};
 const Signature rectangle_signature{"rectangle", {"at", "width", "height", "intensity", "dim"}};
 const Signature scene_signature{"scene", {"camera", "background", "lights", "root", "image", "animation"}};
-const Signature image_signature{"image", {"width", "height", "spp"}};
+const Signature image_signature{"image", {"width", "height", "spp", "shadows", "reflections", "refractions"}};
 const Signature animation_signature{"animation", {"start", "stop", "fps"}};
 
 // Surfaces. -------------------------------------------------------------------------------------------------
@@ -27,7 +31,7 @@ int make_phong(lua_State* L) {
   m.ambient = fields.number("ambient", m.ambient, Range::not_negative);
   m.diffuse = fields.number("diffuse", m.diffuse, Range::not_negative);
   m.specular = fields.number("specular", m.specular, Range::not_negative);
-  m.exponent = fields.integer("exponent", m.exponent, 0, 1'000'000);
+  m.exponent = fields.integer("exponent", m.exponent, 0, max_exponent);
   m.transmission = fields.number("transmission", m.transmission, Range::not_negative);
   m.index = fields.number("index", m.index, Range::positive);
   m.schlick = fields.number("schlick", m.schlick, Range::not_negative);
@@ -35,27 +39,64 @@ int make_phong(lua_State* L) {
   return 1;
 }
 
-int make_checker(lua_State* L) {
-  const Fields fields(L, 1, checker_signature);
-  Checker checker;
-  checker.fu = fields.number("fu", checker.fu);
-  checker.fv = fields.number("fv", checker.fv);
-  checker.color = fields.color("color", checker.color);
-  push_value(L, Texture{checker});
+template <class Squares>
+int push_squares(lua_State* L, const Signature& signature) {
+  const Fields fields(L, 1, signature);
+  Squares texture;
+  texture.fu = fields.number("fu", texture.fu);
+  texture.fv = fields.number("fv", texture.fv);
+  texture.color = fields.color("color", texture.color);
+  push_value(L, Texture{texture});
   return 1;
 }
+int make_checker(lua_State* L) { return push_squares<Checker>(L, checker_signature); }
+int make_stripes(lua_State* L) { return push_squares<Stripes>(L, stripes_signature); }
 
 // Camera and lights. ----------------------------------------------------------------------------------------
 
-int make_perspective(lua_State* L) {
-  const Fields fields(L, 1, perspective_signature);
-  PerspectiveCamera camera;
+/// A camera's place and directions, as all cameras have them.
+template <class Kind>
+Kind read_camera(const Fields& fields) {
+  Kind camera;
   camera.from = fields.vector("from", camera.from);
   camera.direction = fields.vector("direction", camera.direction);
   camera.up = fields.vector("up", camera.up);
+  return camera;
+}
+
+int make_perspective(lua_State* L) {
+  const Fields fields(L, 1, perspective_signature);
+  auto camera = read_camera<PerspectiveCamera>(fields);
   camera.angle_deg = fields.number("angle", camera.angle_deg);
   if (!(camera.angle_deg > 0 && camera.angle_deg < 180))
     throw SceneError("perspective: angle must be above 0 and below 180 degrees");
+  push_value(L, Camera{camera});
+  return 1;
+}
+
+int make_fisheye(lua_State* L) {
+  const Fields fields(L, 1, fisheye_signature);
+  auto camera = read_camera<FisheyeCamera>(fields);
+  camera.angle_deg = fields.number("angle", camera.angle_deg);
+  if (!(camera.angle_deg > 0 && camera.angle_deg <= 360))
+    throw SceneError("fisheye: angle must be above 0 and at most 360 degrees");
+  push_value(L, Camera{camera});
+  return 1;
+}
+
+int make_parabolic(lua_State* L) {
+  const Fields fields(L, 1, parabolic_signature);
+  auto camera = read_camera<ParabolicCamera>(fields);
+  camera.radius = fields.number("radius", camera.radius, Range::positive);
+  camera.size = fields.number("size", camera.size, Range::not_negative);
+  push_value(L, Camera{camera});
+  return 1;
+}
+
+int make_orthographic(lua_State* L) {
+  const Fields fields(L, 1, orthographic_signature);
+  auto camera = read_camera<OrthographicCamera>(fields);
+  camera.width = fields.number("width", camera.width, Range::positive);
   push_value(L, Camera{camera});
   return 1;
 }
@@ -120,7 +161,12 @@ ImageDefaults read_image(lua_State* L, const Fields& scene) {
     if (!fields.has(key)) return std::nullopt;
     return fields.integer(key, 1, 1, most);
   };
-  image = {read("width", max_side), read("height", max_side), read("spp", max_spp)};
+  image = {read("width", max_side),
+           read("height", max_side),
+           read("spp", max_spp),
+           fields.boolean("shadows", true),
+           fields.boolean("reflections", true),
+           fields.boolean("refractions", true)};
   lua_pop(L, 1);
   return image;
 }
@@ -182,7 +228,11 @@ void open_scene(lua_State* L) {
     open_type(L, type);
   lua_register(L, "phong", guarded<make_phong>);
   lua_register(L, "checker", guarded<make_checker>);
+  lua_register(L, "stripes", guarded<make_stripes>);
   lua_register(L, "perspective", guarded<make_perspective>);
+  lua_register(L, "fisheye", guarded<make_fisheye>);
+  lua_register(L, "parabolic", guarded<make_parabolic>);
+  lua_register(L, "orthographic", guarded<make_orthographic>);
   lua_register(L, "ambient", guarded<make_ambient>);
   lua_register(L, "point", guarded<make_point>);
   lua_register(L, "rectangle", guarded<make_rectangle>);
@@ -190,9 +240,11 @@ void open_scene(lua_State* L) {
 }
 
 const std::vector<Signature>& scene_signatures() {
-  static const std::vector<Signature> all{phong_signature,   checker_signature, perspective_signature,
-                                          ambient_signature, point_signature,   rectangle_signature,
-                                          scene_signature,   image_signature,   animation_signature};
+  static const std::vector<Signature> all{phong_signature,        checker_signature, stripes_signature,
+                                          perspective_signature,  fisheye_signature, parabolic_signature,
+                                          orthographic_signature, ambient_signature, point_signature,
+                                          rectangle_signature,    scene_signature,   image_signature,
+                                          animation_signature};
   return all;
 }
 

@@ -1,5 +1,4 @@
-// What surrounds the tree, for scripts: phong{} checker{} perspective{} ambient() point{} rectangle{}
-// scene{}.
+// What surrounds the tree, for scripts: materials, textures, cameras, lights and scene{} itself.
 #pragma once
 #include <lua.h>
 

@@ -172,6 +172,15 @@ glm::dvec3 Fields::color(std::string_view key, const glm::dvec3& otherwise) cons
   return c;
 }
 
+bool Fields::boolean(std::string_view key, bool otherwise) const {
+  if (!push(key)) return otherwise;
+  if (!lua_isboolean(L_, -1))
+    throw SceneError(place(key) + " must be true or false, is " + description(L_, -1));
+  const bool value = lua_toboolean(L_, -1) != 0;
+  lua_pop(L_, 1);
+  return value;
+}
+
 std::optional<std::string> Fields::text(std::string_view key) const {
   if (!push(key)) return std::nullopt;
   if (lua_type(L_, -1) != LUA_TSTRING)

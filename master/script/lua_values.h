@@ -50,6 +50,8 @@ std::string text_of(double x);
 /// "a node", "nil", "the number 3": for messages.
 std::string description(lua_State* L, int index);
 
+constexpr std::uint32_t max_exponent = 1'000'000;
+
 enum class Range { finite, infinite_too, positive, not_negative };
 /// The number at the index. `what` names it in messages: "torus: r".
 double number_at(lua_State* L, int index, const std::string& what, Range range = Range::finite);
@@ -70,11 +72,13 @@ class Fields {
                         std::uint32_t most) const;
   glm::dvec3 vector(std::string_view key, const glm::dvec3& otherwise, Range range = Range::finite) const;
   glm::dvec3 color(std::string_view key, const glm::dvec3& otherwise) const;
+  bool boolean(std::string_view key, bool otherwise) const;
   std::optional<std::string> text(std::string_view key) const;
   bool has(std::string_view key) const;
   /// Throws unless the key is there.
   void require(std::string_view key) const;
   std::string place(std::string_view key) const;  // "torus: r"
+  std::string function() const { return std::string(signature_.function); }
 
  private:
   void check_keys() const;

@@ -13,10 +13,11 @@
 namespace rayfarm {
 
 struct NodeValue {
-  std::variant<Operation, Solid> content;
+  NodeContent content;
   Affine parent_from_node;
   const Material* material = nullptr;  // kept alive by Companion::material
   std::optional<glm::dvec3> color;
+  bool no_shadow = false;
   std::uint64_t nodes = 1;  // of the tree below, itself included, every shared part counted each time
   std::uint32_t levels = 1;
 };

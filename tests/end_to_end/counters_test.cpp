@@ -28,13 +28,16 @@ class Counters : public EachScene {
     *std::next(std::ranges::find(words, "--spp")) = "16";
     return words + Words{"--sampler", "adapt1"};
   }
+  void start_farm() {
+    start_master({"--threads", "0"});
+    start_workers_to_kill();
+  }
 
   std::uint64_t given_back_ = 0;
 };
 
 TEST_P(Counters, OfAFarmAreThoseOfOnePCAlsoWhenWorkersDie) {
-  start_master({"--threads", "0"});
-  start_workers_to_kill();
+  start_farm();
   for (const Words& words : {picture(), picture() + Words{"--depth", "2"}, adaptive_picture()}) {
     const json expected = counted_here(words);
     EXPECT_GT(expected.at("misses"), 0);
@@ -44,7 +47,18 @@ TEST_P(Counters, OfAFarmAreThoseOfOnePCAlsoWhenWorkersDie) {
   EXPECT_GT(given_back_, 5u) << "too few were killed in the middle of their work";
 }
 
-INSTANTIATE_TEST_SUITE_P(AllScenes, Counters, testing::ValuesIn(all_scenes()), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Five, Counters, testing::ValuesIn(five_scenes()), name_of_case);
+
+class CountersOfOthers : public Counters {};
+
+TEST_P(CountersOfOthers, OfAFarmAreThoseOfOnePC) {
+  start_farm();
+  const json expected = counted_here(picture());
+  EXPECT_EQ(expected.at("lost"), 0);
+  EXPECT_EQ(counted_by_farm(picture(), 0), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Others, CountersOfOthers, testing::ValuesIn(other_scenes()), name_of_case);
 
 class AdaptiveSamples : public FarmPrograms {};
 

@@ -39,7 +39,7 @@ class EachScene : public FarmPrograms, public testing::WithParamInterface<SceneP
 };
 
 /// Pictures of 20 tiles, some of them narrow.
-inline std::vector<ScenePicture> all_scenes() {
+inline std::vector<ScenePicture> five_scenes() {
   const Words options{"--size", "300x220", "--spp", "4"};
   return {{"SpherePlane", Words{scene_file("sphere_plane")} + options},
           {"HedgehogInTheCage", Words{scene_file("hedgehog_in_the_cage")} + options},
@@ -47,6 +47,23 @@ inline std::vector<ScenePicture> all_scenes() {
           {"SphereFlake", Words{scene_file("sphere_flake")} + options},
           {"TestScene", Words{scene_file("test_scene")} + options},
           {"TestSceneRectLight", Words{scene_file("test_scene"), "-p", "light=rectangle"} + options}};
+}
+
+/// Of 6 tiles.
+inline std::vector<ScenePicture> other_scenes() {
+  const Words options{"--size", "150x100", "--spp", "4"};
+  return {{"TwoSpheres", Words{scene_file("two_spheres")} + options},
+          {"FiveBalls", Words{scene_file("five_balls")} + options},
+          {"Cubes", Words{scene_file("cubes"), "-p", "mat=glass"} + options},
+          {"Cylinders", Words{scene_file("cylinders")} + options},
+          {"CylindersGlow", Words{scene_file("cylinders_glow")} + options},
+          {"Toroids", Words{scene_file("toroids")} + options},
+          {"ToroidsOrienteering", Words{scene_file("toroids_orienteering")} + options},
+          {"Optics", Words{scene_file("optics")} + options},
+          {"OpticsRayCasting", Words{scene_file("optics"), "-p", "rc=true"} + options},
+          {"Glasshenge", Words{scene_file("glasshenge")} + options},
+          {"Flags", Words{scene_file("flags")} + options},
+          {"AnimatedScene", Words{scene_file("animated_scene"), "--frame", "77"} + options}};
 }
 
 inline std::string name_of_case(const testing::TestParamInfo<ScenePicture>& info) { return info.param.name; }

@@ -42,7 +42,7 @@ bool within(const Apart& a, const Apart& limit) {
 // The most that the reference changes when its ray is moved a little, to any side.
 Apart sensitivity(const ReferenceTracer& tracer, const ReferenceSettings& film, const ReferenceSample& here,
                   double x, double y) {
-  Apart most = rounding;
+  Apart most;
   const double step = nudge * film.width;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
@@ -51,7 +51,7 @@ Apart sensitivity(const ReferenceTracer& tracer, const ReferenceSettings& film, 
       most = {std::max(most.distance, a.distance), std::max(most.normal, a.normal),
               std::max(most.color, a.color)};
     }
-  return most;
+  return {most.distance + rounding.distance, most.normal + rounding.normal, most.color + rounding.color};
 }
 
 template <class Hit>
@@ -95,9 +95,9 @@ void Comparison::compare_at(double x, double y) {
                 << text(expected.first_hit) << ", core " << text(got.first_hit);
 }
 
-void Comparison::compare_rows(std::uint32_t y0, std::uint32_t y1) {
+void Comparison::compare_rows(std::uint32_t y0, std::uint32_t y1, double place) {
   for (std::uint32_t y = y0; y < y1; ++y)
-    for (std::uint32_t x = 0; x < settings_.width && wrong_ < 10; ++x) compare_at(x + 0.5, y + 0.5);
+    for (std::uint32_t x = 0; x < settings_.width && wrong_ < 10; ++x) compare_at(x + place, y + place);
 }
 
 void Comparison::expect_few_at_edges() const {

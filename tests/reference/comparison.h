@@ -18,8 +18,8 @@ class Comparison {
 
   /// Adds a test failure when the two do not agree at this point of the film.
   void compare_at(double x, double y);
-  /// Every pixel centre of the rows y0 <= y < y1; stops after ten failures.
-  void compare_rows(std::uint32_t y0, std::uint32_t y1);
+  /// Every pixel of the rows y0 <= y < y1, at that place of it: its centre; stops after ten failures.
+  void compare_rows(std::uint32_t y0, std::uint32_t y1, double place = 0.5);
   /// Few rays pass so near an edge that rounding decides.
   void expect_few_at_edges() const;
 

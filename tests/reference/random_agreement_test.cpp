@@ -29,5 +29,9 @@ TEST(Agreement, RandomScenesOfCoincidentFaces) {
   expect_agreement_on_random_scenes("snapped", random_snapped_scene, 0, 150);
 }
 
+TEST(Agreement, RandomScenesWithAllThatFewScenesHave) {
+  expect_agreement_on_random_scenes("special", random_special_scene, 0, 150);
+}
+
 }  // namespace
 }  // namespace rayfarm

@@ -11,9 +11,8 @@ namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-// Two surfaces at most this part of their coordinates apart are one: the scene's numbers are doubles, so
-// coincident faces that come through different transforms differ by some 1e-16.
-constexpr Real coincidence = 1e-13L;
+// A secondary ray does not meet the surfaces that lie this part of their coordinates in front of its start.
+constexpr Real left_behind = 1e-12L;
 
 // A convex solid's part of the line, cut down by one boundary after the other.
 struct Chord {
@@ -132,12 +131,14 @@ Spans spans_of_solid(const Convex& solid, const Ray& ray) {
 
 Real size_of(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-Spans spans_of_leaf(const Leaf& leaf, int number, const Ray& ray) {
+}  // namespace
+
+Spans spans_of(const Leaf& leaf, int number, const Ray& ray, const Rules& rules) {
   const Ray local{leaf.local_from_world * (ray.origin - leaf.offset), leaf.local_from_world * ray.direction};
-  Spans spans = spans_of(leaf.solid, local);
+  Spans spans = rules.spans(leaf.solid, local);
   bool inside = spans.starts_inside;
   for (Crossing& c : spans.crossings) {
-    const Vec p = local.origin + c.t * local.direction;
+    const Vec p = local.origin + (c.t + c.to_point) * local.direction;
     c.leaf = number;
     c.entering = inside = !inside;
     c.normal = glm::normalize(glm::transpose(leaf.local_from_world) * c.gradient);
@@ -147,9 +148,11 @@ Spans spans_of_leaf(const Leaf& leaf, int number, const Ray& ray) {
   return spans;
 }
 
+namespace {
+
 Real speed_across(const Crossing& c, const Ray& ray) { return std::abs(glm::dot(c.normal, ray.direction)); }
 
-bool coincide(const Crossing& a, const Crossing& b, const Ray& ray) {
+bool coincide(const Crossing& a, const Crossing& b, const Ray& ray, Real coincidence) {
   const Real apart = std::abs(a.t - b.t) * std::min(speed_across(a, ray), speed_across(b, ray));
   return a.t == b.t || apart <= coincidence * std::max(a.size, b.size);
 }
@@ -169,13 +172,14 @@ bool holds(CsgOp op, bool left, bool right) {
 }
 
 // Walks both lists in the order of t. At equal t both sides flip and the left crossing is the one kept.
-Spans combine(CsgOp op, const Spans& left, const Spans& right, const Ray& ray) {
+Spans combine(CsgOp op, const Spans& left, const Spans& right, const Ray& ray, Real coincidence) {
   bool in_left = left.starts_inside, in_right = right.starts_inside, inside = holds(op, in_left, in_right);
   Spans result{inside, {}};
   auto l = left.crossings.begin(), r = right.crossings.begin();
   while (l != left.crossings.end() || r != right.crossings.end()) {
     bool take_left = l != left.crossings.end(), take_right = r != right.crossings.end();
-    if (take_left && take_right && !coincide(*l, *r, ray)) (l->t < r->t ? take_right : take_left) = false;
+    if (take_left && take_right && !coincide(*l, *r, ray, coincidence))
+      (l->t < r->t ? take_right : take_left) = false;
     const Crossing& kept = take_left ? *l : *r;
     if (take_left) in_left = !in_left, ++l;
     if (take_right) in_right = !in_right, ++r;
@@ -188,64 +192,109 @@ Spans combine(CsgOp op, const Spans& left, const Spans& right, const Ray& ray) {
 }
 
 // Reads one subtree in preorder; `node` and `leaf` move behind it.
-Spans spans_of_subtree(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray, std::size_t& node,
-                       int& leaf) {
-  const auto* operation = std::get_if<Operation>(&scene.nodes[node++].content);
+Spans spans_of_subtree(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray,
+                       const Rules& rules, std::size_t& node, int& leaf) {
+  const Node& root = scene.nodes[node++];
+  if (std::holds_alternative<Glow>(root.content)) return {};
+  const auto* operation = std::get_if<Operation>(&root.content);
   if (operation == nullptr) {
     const int number = leaf++;
-    return spans_of_leaf(leaves[number], number, ray);
+    return spans_of(leaves[number], number, ray, rules);
   }
   Spans result;
   for (std::uint32_t child = 0; child < operation->children; ++child) {
-    Spans next = spans_of_subtree(scene, leaves, ray, node, leaf);
+    Spans next = spans_of_subtree(scene, leaves, ray, rules, node, leaf);
     if (child == 0) {
       result = std::move(next);
     } else if (next.starts_inside || !next.crossings.empty() || operation->op == CsgOp::intersect) {
-      result = combine(operation->op, result, next, ray);
+      result = combine(operation->op, result, next, ray, rules.coincidence);
     }
   }
   return result;
 }
 
-void collect_leaves(const Scene& scene, Leaf inherited, std::size_t& index, std::vector<Leaf>& leaves) {
+struct Placed {
+  std::vector<Leaf> leaves;
+  std::vector<PlacedGlow> glows;
+};
+
+void place(const Scene& scene, Leaf inherited, std::size_t& index, Placed& placed) {
   const Node& node = scene.nodes[index++];
   const Mat linear(node.parent_from_node.linear);
   inherited.offset += inherited.world_from_local * Vec(node.parent_from_node.offset);
   inherited.world_from_local = inherited.world_from_local * linear;
   if (node.material) inherited.material = scene.materials.at(*node.material);
   if (node.color) inherited.color = node.color;
+  inherited.no_shadow = inherited.no_shadow || node.no_shadow;
   inherited.textures.insert(inherited.textures.end(), node.textures.begin(), node.textures.end());
   if (const auto* operation = std::get_if<Operation>(&node.content)) {
     for (std::uint32_t child = 0; child < operation->children; ++child)
-      collect_leaves(scene, inherited, index, leaves);
+      place(scene, inherited, index, placed);
+    return;
+  }
+  inherited.local_from_world = glm::inverse(inherited.world_from_local);
+  if (const auto* glow = std::get_if<Glow>(&node.content)) {
+    inherited.solid = std::holds_alternative<Sphere>(glow->shape) ? Solid(Sphere{}) : Solid(Cylinder{});
+    placed.glows.push_back({*glow, std::move(inherited)});
     return;
   }
   inherited.solid = std::get<Solid>(node.content);
-  inherited.local_from_world = glm::inverse(inherited.world_from_local);
-  leaves.push_back(std::move(inherited));
+  placed.leaves.push_back(std::move(inherited));
+}
+
+Placed placed_parts(const Scene& scene) {
+  Placed placed;
+  std::size_t index = 0;
+  place(scene, Leaf{}, index, placed);
+  return placed;
 }
 
 }  // namespace
 
-std::vector<Leaf> leaves_of(const Scene& scene) {
-  std::vector<Leaf> leaves;
-  std::size_t index = 0;
-  collect_leaves(scene, Leaf{}, index, leaves);
-  return leaves;
-}
+std::vector<Leaf> leaves_of(const Scene& scene) { return placed_parts(scene).leaves; }
+std::vector<PlacedGlow> glows_of(const Scene& scene) { return placed_parts(scene).glows; }
 
 Spans spans_of(const Solid& solid, const Ray& local) {
   return std::visit([&](const auto& s) { return spans_of_solid(s, local); }, solid);
 }
 
-Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray) {
+Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray, const Rules& rules) {
   std::size_t node = 0;
   int leaf = 0;
-  return spans_of_subtree(scene, leaves, ray, node, leaf);
+  return spans_of_subtree(scene, leaves, ray, rules, node, leaf);
+}
+
+namespace {
+
+void collect_parts(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray, const Rules& rules,
+                   std::size_t& node, int& leaf, std::vector<Spans>& parts) {
+  const auto* operation = std::get_if<Operation>(&scene.nodes[node].content);
+  if (operation == nullptr || operation->op != CsgOp::unite) {
+    parts.push_back(spans_of_subtree(scene, leaves, ray, rules, node, leaf));
+    return;
+  }
+  ++node;
+  for (std::uint32_t child = 0; child < operation->children; ++child)
+    collect_parts(scene, leaves, ray, rules, node, leaf, parts);
+}
+
+}  // namespace
+
+std::vector<Spans> spans_of_parts(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray,
+                                  const Rules& rules) {
+  std::size_t node = 0;
+  int leaf = 0;
+  std::vector<Spans> parts;
+  collect_parts(scene, leaves, ray, rules, node, leaf, parts);
+  return parts;
 }
 
 Real depth_across(const Crossing& crossing, const Ray& ray) {
   return crossing.t * speed_across(crossing, ray);
+}
+
+bool is_ahead(const Crossing& crossing, const Ray& ray) {
+  return crossing.t > 0 && depth_across(crossing, ray) > left_behind * crossing.size;
 }
 
 }  // namespace rayfarm::reference

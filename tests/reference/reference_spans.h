@@ -24,6 +24,12 @@ struct Leaf {
   std::optional<glm::dvec3> color;
   Material material;
   std::vector<Texture> textures;  // ancestors' first
+  bool no_shadow = false;
+};
+
+struct PlacedGlow {
+  Glow glow;
+  Leaf leaf;  // where a line is inside it; a tube's is endless
 };
 
 struct Ray {
@@ -32,6 +38,7 @@ struct Ray {
 
 struct Crossing {
   Real t = 0;
+  Real to_point = 0;      // its point is at t + to_point: 0 but by the original's rules
   int leaf = 0;           // preorder number among the leaves
   bool entering = false;  // the state behind it: inside the result of the operators so far
   Vec gradient{0};        // local, points out of the solid
@@ -47,15 +54,36 @@ struct Spans {
 
 /// The leaves in preorder.
 std::vector<Leaf> leaves_of(const Scene& scene);
+std::vector<PlacedGlow> glows_of(const Scene& scene);
 
 /// The spans of one solid in its local space; t is that of the ray given. Only t and gradient are set.
 Spans spans_of(const Solid& solid, const Ray& local);
 
-/// The spans of the whole tree. Surfaces nearer to each other than rounding of the scene's own numbers count
-/// as one.
-Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray);
-
 /// How far the crossing lies in front of the ray's origin, measured across its surface.
 Real depth_across(const Crossing& crossing, const Ray& ray);
+
+/// A ray that starts on a surface leaves behind what lies less than rounding of the coordinates in front of it.
+bool is_ahead(const Crossing& crossing, const Ray& ray);
+
+/// What of the tracer can be had as the original has it (original_rules.h), to show what differs.
+struct Rules {
+  Spans (*spans)(const Solid&, const Ray& local) = spans_of;
+  /// Two surfaces at most this part of their coordinates apart are one: the scene's numbers are doubles, so
+  /// coincident faces that come through different transforms differ by some 1e-16.
+  Real coincidence = 1e-13L;
+  /// Whether a ray that starts on a surface meets the crossing, or leaves it behind.
+  bool (*is_ahead)(const Crossing&, const Ray&) = reference::is_ahead;
+};
+
+/// The spans of one leaf in world space.
+Spans spans_of(const Leaf& leaf, int number, const Ray& ray, const Rules& rules = {});
+
+/// The spans of the whole tree. Surfaces nearer to each other than rounding of the scene's own numbers count
+/// as one.
+Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray, const Rules& rules = {});
+
+/// The spans of each part of the scene, its topmost unions taken apart: also what lies within another part.
+std::vector<Spans> spans_of_parts(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray,
+                                  const Rules& rules = {});
 
 }  // namespace rayfarm::reference

@@ -1,5 +1,6 @@
 #include "tests/reference/reference_tracer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,12 +10,11 @@ namespace {
 
 constexpr Real pi = std::numbers::pi_v<Real>;
 
-// A secondary ray does not meet the surfaces that lie this part of their coordinates in front of its start.
-constexpr Real left_behind = 1e-12L;
-
 struct Tracer {
   const Scene& scene;
+  const Rules& rules;
   const std::vector<Leaf>& leaves;
+  const std::vector<PlacedGlow>& glows;
   const ReferenceSettings& settings;
 };
 
@@ -28,18 +28,74 @@ Vec unit(const Vec& v) { return v / std::sqrt(glm::dot(v, v)); }
 // Meeting the scene.
 // -------------------------------------------------------------------------------------------
 
-Ray camera_ray(const PerspectiveCamera& camera, const ReferenceSettings& film, Real x, Real y) {
+// Right, up, forward; the view is left-handed.
+struct Axes {
+  Vec right, up, forward;
+};
+
+template <class Camera>
+Axes axes_of(const Camera& camera) {
   const Vec d = unit(Vec(camera.direction)), left = unit(glm::cross(d, Vec(camera.up)));
-  const Vec top = unit(glm::cross(left, d));
-  const Real half_width = std::tan(camera.angle_deg * pi / 360),
-             half_height = half_width * film.height / film.width;
-  return {Vec(camera.from), unit(d + top * (half_height - 2 * half_height * y / film.height) +
-                                 left * (half_width - 2 * half_width * x / film.width))};
+  return {-left, unit(glm::cross(left, d)), d};
 }
 
-std::optional<Crossing> first_crossing(const Spans& spans, const Ray& ray, bool leaves_a_surface) {
+// The film's middle is (0, 0), its nearer edges are 1 away from there.
+using DiscPoint = glm::vec<2, Real, glm::defaultp>;
+
+DiscPoint disc_point(const ReferenceSettings& film, Real x, Real y) {
+  return DiscPoint(x - film.width / 2, film.height / 2 - y) * (2 / Real(std::min(film.width, film.height)));
+}
+
+using CameraRay = std::optional<Ray>;
+
+CameraRay camera_ray(const PerspectiveCamera& camera, const ReferenceSettings& film, Real x, Real y) {
+  const Axes axes = axes_of(camera);
+  const Real half_width = std::tan(camera.angle_deg * pi / 360),
+             half_height = half_width * film.height / film.width;
+  return Ray{Vec(camera.from),
+             unit(axes.forward + axes.up * (half_height - 2 * half_height * y / film.height) -
+                  axes.right * (half_width - 2 * half_width * x / film.width))};
+}
+
+CameraRay camera_ray(const FisheyeCamera& camera, const ReferenceSettings& film, Real x, Real y) {
+  const DiscPoint n = disc_point(film, x, y);
+  const Real r = std::hypot(n.x, n.y), phi = std::atan2(n.y, n.x);
+  if (r > 1) return std::nullopt;
+  const Real theta = r * camera.angle_deg * pi / 360;
+  const Axes axes = axes_of(camera);
+  return Ray{Vec(camera.from), std::sin(theta) * std::cos(phi) * axes.right +
+                                   std::sin(theta) * std::sin(phi) * axes.up +
+                                   std::cos(theta) * axes.forward};
+}
+
+CameraRay camera_ray(const ParabolicCamera& camera, const ReferenceSettings& film, Real x, Real y) {
+  const DiscPoint n = disc_point(film, x, y);
+  if (std::hypot(n.x, n.y) > 1) return std::nullopt;
+  const Real u = n.x * camera.radius, v = n.y * camera.radius, r2 = u * u + v * v;
+  const Axes axes = axes_of(camera);
+  const Vec origin =
+      Vec(camera.from) + Real(camera.size) * (u * axes.right + v * axes.up + (1 - r2) / 2 * axes.forward);
+  return Ray{origin, (2 * u * axes.right + 2 * v * axes.up + (1 - r2) * axes.forward) / (1 + r2)};
+}
+
+CameraRay camera_ray(const OrthographicCamera& camera, const ReferenceSettings& film, Real x, Real y) {
+  const Axes axes = axes_of(camera);
+  const Real pixel = camera.width / Real(film.width);
+  return Ray{Vec(camera.from) + (x - Real(film.width) / 2) * pixel * axes.right +
+                 (Real(film.height) / 2 - y) * pixel * axes.up,
+             axes.forward};
+}
+
+std::optional<Crossing> first_crossing(const Spans& spans) {
   for (const Crossing& c : spans.crossings)
-    if (c.t > 0 && (!leaves_a_surface || depth_across(c, ray) > left_behind * c.size)) return c;
+    if (c.t > 0) return c;
+  return std::nullopt;
+}
+
+// The same for a ray that starts on a surface.
+std::optional<Crossing> next_crossing(const Spans& spans, const Ray& ray, const Rules& rules) {
+  for (const Crossing& c : spans.crossings)
+    if (rules.is_ahead(c, ray)) return c;
   return std::nullopt;
 }
 
@@ -78,14 +134,21 @@ Uv uv_of(const Torus& torus, const Vec& p, const Vec&) {
   return {turn(p.y, p.x), turn(s, p.z)};
 }
 
+bool is_odd(Real u, Real v) { return std::fmod(std::floor(u) + std::floor(v), Real(2)) != 0; }
+
+bool takes_color(const Checker& checker, Real u, Real v) { return is_odd(u * checker.fu, v * checker.fv); }
+bool takes_color(const Stripes& stripes, Real u, Real v) {
+  const Real fu = u * stripes.fu, fv = v * stripes.fv;
+  return is_odd(fu, fv) == (fu - std::floor(fu) > fv - std::floor(fv));
+}
+
 Vec textured(const Texture& texture, const Uv& uv, const Vec& color) {
-  const auto& checker = std::get<Checker>(texture);
-  const Real cell = std::floor(uv.x * checker.fu) + std::floor(uv.y * checker.fv);
-  return std::fmod(cell, Real(2)) == 0 ? color : Vec(checker.color);
+  return std::visit([&](const auto& t) { return takes_color(t, uv.x, uv.y) ? Vec(t.color) : color; },
+                    texture);
 }
 
 Surface surface_of(const Leaf& leaf, const Crossing& c, const Ray& ray) {
-  Surface surface{ray.origin + c.t * ray.direction, normal_of(c, ray),
+  Surface surface{ray.origin + (c.t + c.to_point) * ray.direction, normal_of(c, ray),
                   Vec(leaf.color.value_or(leaf.material.color)), leaf.material};
   const Vec local = leaf.local_from_world * (surface.point - leaf.offset);
   const Uv uv = std::visit([&](const auto& solid) { return uv_of(solid, local, c.gradient); }, leaf.solid);
@@ -144,9 +207,10 @@ Vec phong(const Surface& s, const Vec& l, const Vec& v) {
 }
 
 bool is_blocked(const Tracer& tracer, const Ray& to_light) {
-  const Spans spans = spans_of(tracer.scene, tracer.leaves, to_light);
-  const auto blocker = first_crossing(spans, to_light, true);
-  return blocker && blocker->t < 1;
+  for (const Spans& spans : spans_of_parts(tracer.scene, tracer.leaves, to_light, tracer.rules))
+    for (const Crossing& c : spans.crossings)
+      if (c.t < 1 && tracer.rules.is_ahead(c, to_light) && !tracer.leaves[c.leaf].no_shadow) return true;
+  return false;
 }
 
 Vec from_point(const Tracer& tracer, const Surface& s, const Vec& v, const Vec& at, const Vec& intensity) {
@@ -204,17 +268,44 @@ Vec shade(const Tracer& tracer, const Surface& s, const Vec& v, int depth, Real 
   return color;
 }
 
+// What the shell adds to a ray that it meets before `hit`: the sine is that between ray and normal in its own space.
+Vec glow_on(const PlacedGlow& placed, const Ray& ray, bool leaves_a_surface,
+            const std::optional<Crossing>& hit) {
+  const Leaf& leaf = placed.leaf;
+  const Spans spans = spans_of(leaf, 0, ray);
+  if (spans.crossings.empty()) return Vec(0);
+  const Crossing& front = spans.crossings.front();
+  if (front.t <= 0 || (leaves_a_surface && !is_ahead(front, ray))) return Vec(0);
+  Crossing beyond = front;
+  if (hit) beyond.t -= hit->t;
+  if (hit && is_ahead(beyond, ray)) return Vec(0);
+  Vec direction = leaf.local_from_world * ray.direction;
+  const Vec point = leaf.local_from_world * (ray.origin + front.t * ray.direction - leaf.offset);
+  if (const auto* tube = std::get_if<Cylinder>(&placed.glow.shape)) {
+    if (point.z < tube->z_min || point.z > tube->z_max) return Vec(0);
+    direction.z = 0;
+  }
+  const Vec side = glm::cross(unit(direction), unit(front.gradient));
+  const Real sine = std::sqrt(glm::dot(side, side));
+  return Vec(placed.glow.color) * std::pow(std::max(1 - sine, Real(0)), Real(placed.glow.exponent));
+}
+
 Vec radiance(const Tracer& tracer, const Ray& ray, int depth, Real importance) {
-  const auto hit = first_crossing(spans_of(tracer.scene, tracer.leaves, ray), ray, depth > 0);
-  if (!hit) return Vec(tracer.scene.background);
-  return shade(tracer, surface_of(tracer.leaves[hit->leaf], *hit, ray), -unit(ray.direction), depth,
-               importance);
+  const Spans spans = spans_of(tracer.scene, tracer.leaves, ray, tracer.rules);
+  const auto hit = depth > 0 ? next_crossing(spans, ray, tracer.rules) : first_crossing(spans);
+  Vec color(tracer.scene.background);
+  if (hit)
+    color = shade(tracer, surface_of(tracer.leaves[hit->leaf], *hit, ray), -unit(ray.direction), depth,
+                  importance);
+  for (const PlacedGlow& glow : tracer.glows) color += glow_on(glow, ray, depth > 0, hit);
+  return color;
 }
 
 std::optional<ReferenceHit> hit_of(const Spans& spans, const Ray& ray) {
-  const auto c = first_crossing(spans, ray, false);
+  const auto c = first_crossing(spans);
   if (!c) return std::nullopt;
-  return ReferenceHit{static_cast<double>(c->t), glm::dvec3(ray.origin + c->t * ray.direction),
+  return ReferenceHit{static_cast<double>(c->t),
+                      glm::dvec3(ray.origin + (c->t + c->to_point) * ray.direction),
                       glm::dvec3(normal_of(*c, ray)), c->leaf};
 }
 
@@ -223,15 +314,17 @@ std::optional<ReferenceHit> hit_of(const Spans& spans, const Ray& ray) {
 
 ReferenceSample ReferenceTracer::sample(const ReferenceSettings& settings, double x, double y) const {
   using namespace reference;
-  const Tracer tracer{scene_, leaves_, settings};
-  const Ray ray = camera_ray(std::get<PerspectiveCamera>(scene_.camera), settings, x, y);
-  return {hit_of(spans_of(scene_, leaves_, ray), ray), glm::dvec3(radiance(tracer, ray, 0, 1))};
+  const Tracer tracer{scene_, rules_, leaves_, glows_, settings};
+  const auto ray =
+      std::visit([&](const auto& camera) { return camera_ray(camera, settings, x, y); }, scene_.camera);
+  if (!ray) return {};
+  return {hit_of(spans_of(scene_, leaves_, *ray, rules_), *ray), glm::dvec3(radiance(tracer, *ray, 0, 1))};
 }
 
 std::optional<ReferenceHit> ReferenceTracer::first_hit(const glm::dvec3& origin,
                                                        const glm::dvec3& direction) const {
   const reference::Ray ray{reference::Vec(origin), reference::Vec(direction)};
-  return reference::hit_of(reference::spans_of(scene_, leaves_, ray), ray);
+  return reference::hit_of(reference::spans_of(scene_, leaves_, ray, rules_), ray);
 }
 
 }  // namespace rayfarm

@@ -1,7 +1,7 @@
 // The reference tracer: one sample at a time, by linear recursion over the tree, written from the description
 // of the original and from nothing of ours. It keeps the original's picture and leaves out its numerical
-// faults: rays along a cylinder's axis or a plane's face are decided rightly, and a secondary ray leaves the
-// surface it starts on by rounding of the coordinates, not by a fixed length.
+// faults: rays along a cylinder's axis or a plane's face are decided rightly, a secondary ray leaves the surface it
+// starts on by rounding of the coordinates, not by a fixed length, and a glow shell changes no ray.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
@@ -34,7 +34,11 @@ struct ReferenceSettings {
 /// A scene with its leaves laid out. Keeps a reference to the scene.
 class ReferenceTracer {
  public:
-  explicit ReferenceTracer(const Scene& scene) : scene_(scene), leaves_(reference::leaves_of(scene)) {}
+  explicit ReferenceTracer(const Scene& scene, const reference::Rules& rules = {})
+      : scene_(scene),
+        rules_(rules),
+        leaves_(reference::leaves_of(scene)),
+        glows_(reference::glows_of(scene)) {}
 
   /// The sample at (x, y) on the film: x to the right, y down, pixel centres at halves.
   ReferenceSample sample(const ReferenceSettings& settings, double x, double y) const;
@@ -43,7 +47,9 @@ class ReferenceTracer {
 
  private:
   const Scene& scene_;
+  reference::Rules rules_;
   std::vector<reference::Leaf> leaves_;
+  std::vector<reference::PlacedGlow> glows_;
 };
 
 }  // namespace rayfarm

@@ -140,6 +140,29 @@ void light_up(Dice& dice, Scene& scene) {
                                           dice.vec(0.1, 1)});
 }
 
+Camera another_camera(Dice& dice, const PerspectiveCamera& c) {
+  switch (dice.one_of(4)) {
+    case 0:
+      return FisheyeCamera{c.from, c.direction, c.up, dice.between(20, 360)};
+    case 1:
+      return ParabolicCamera{c.from, c.direction, c.up, dice.between(0.1, 2), dice.between(0, 1)};
+    case 2:
+      return OrthographicCamera{c.from, c.direction, c.up, dice.between(2, 6)};
+    default:
+      return c;
+  }
+}
+
+Node random_glow(Dice& dice) {
+  Node node;
+  Glow glow;
+  glow.color = dice.vec(0, 1), glow.exponent = 1 + dice.one_of(20);
+  if (dice.chance(0.5)) glow.shape = Cylinder{-dice.between(0, 2), dice.between(0, 2)};
+  node.content = glow;
+  node.parent_from_node = any_leaf(dice);
+  return node;
+}
+
 Scene scene_of(std::uint64_t seed, const Placement& placement) {
   Dice dice(seed);
   Scene scene;
@@ -150,6 +173,22 @@ Scene scene_of(std::uint64_t seed, const Placement& placement) {
 }
 
 }  // namespace
+
+Scene random_special_scene(std::uint64_t seed) {
+  Scene scene = random_scene(seed);
+  Dice dice(~seed);
+  scene.camera = another_camera(dice, std::get<PerspectiveCamera>(scene.camera));
+  for (Node& node : scene.nodes) {
+    node.no_shadow = dice.chance(0.2);
+    for (Texture& texture : node.textures)
+      if (dice.chance(0.5)) texture = Stripes{dice.between(-8, 8), dice.between(-8, 8), dice.vec(0, 1)};
+  }
+  std::vector<Node> parts(1);
+  for (int i = 0; i < 4; ++i) parts.push_back(random_glow(dice));
+  parts[0].content = Operation{CsgOp::unite, static_cast<std::uint32_t>(parts.size())};
+  scene.nodes.insert(scene.nodes.begin(), parts.begin(), parts.end());
+  return scene;
+}
 
 Scene random_scene(std::uint64_t seed) { return scene_of(seed, {any_leaf, any_group, any_length}); }
 

@@ -14,4 +14,7 @@ Scene random_scene(std::uint64_t seed);
 /// again. The camera stands anywhere.
 Scene random_snapped_scene(std::uint64_t seed);
 
+/// random_scene(seed) seen by any camera, with what few scenes have: glow shells, stripes, parts without a shadow.
+Scene random_special_scene(std::uint64_t seed);
+
 }  // namespace rayfarm

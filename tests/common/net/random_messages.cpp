@@ -27,10 +27,11 @@ RenderSettings random_settings(std::mt19937_64& random) {
 }  // namespace
 
 Scene named_scene(std::mt19937_64& random) {
-  Scene scene = random_scene(random());
+  Scene scene = random() % 2 ? random_scene(random()) : random_special_scene(random());
   for (Node& node : scene.nodes)
     if (random() % 2) node.name = random_name(random);
-  if (random() % 2) scene.image = {random() % 1000 + 1, std::nullopt, 16};
+  if (random() % 2)
+    scene.image = {random() % 1000 + 1, std::nullopt, 16, random() % 2 == 0, true, random() % 2 == 0};
   if (random() % 2) scene.animation = Animation{0, 20, 25};
   return scene;
 }

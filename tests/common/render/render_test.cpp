@@ -38,15 +38,16 @@ bool same_bits(const Film& a, const Film& b) {
 }
 
 TEST(Render, PassesAndThreadsDoNotChangeABit) {
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const World world(random_scene(seed));
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Scene (*const make)(std::uint64_t) = seed < 5 ? random_scene : random_special_scene;
+    const World world(make(seed));
     RenderSettings s = small_settings();
-    if (seed == 4) s.sampler = SamplerKind::adapt1, s.spp = 16;
+    if (seed == 4 || seed == 7) s.sampler = SamplerKind::adapt1, s.spp = 16;
     const Film whole = rendered(world, s);
     EXPECT_TRUE(whole.is_complete());
     EXPECT_TRUE(same_bits(whole, rendered(world, s, 0b0101)));
     Film other;
-    std::thread([&] { other = rendered(World(random_scene(seed)), s, 0b0010); }).join();
+    std::thread([&] { other = rendered(World(make(seed)), s, 0b0010); }).join();
     EXPECT_TRUE(same_bits(whole, other));
   }
 }
@@ -89,7 +90,9 @@ Scene scaled(Scene scene, int k) {
   const double f = std::ldexp(1.0, k);
   Affine& root = scene.nodes[0].parent_from_node;
   root = scaling({f, f, f}) * root;
-  std::get<PerspectiveCamera>(scene.camera).from *= f;
+  std::visit([&](auto& camera) { camera.from *= f; }, scene.camera);
+  if (auto* parabolic = std::get_if<ParabolicCamera>(&scene.camera)) parabolic->size *= f;
+  if (auto* orthographic = std::get_if<OrthographicCamera>(&scene.camera)) orthographic->width *= f;
   for (Light& light : scene.lights) {
     if (auto* point = std::get_if<PointLight>(&light)) point->at *= f;
     if (auto* r = std::get_if<RectangleLight>(&light)) {
@@ -105,13 +108,29 @@ TEST(Render, AllLengthsTimesAPowerOfTwoGiveTheSameBits) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     RenderSettings s = small_settings();
     s.spp = 1;
-    for (Scene (*make)(std::uint64_t) : {random_scene, random_snapped_scene}) {
+    for (Scene (*make)(std::uint64_t) : {random_scene, random_snapped_scene, random_special_scene}) {
       const Scene scene = make(seed);
       const Film here = rendered(World(scene), s);
       for (const int k : {-20, -7, 3, 20})
         EXPECT_TRUE(same_bits(here, rendered(World(scaled(scene, k)), s))) << seed << " * 2^" << k;
     }
   }
+}
+
+TEST(Render, WhereTheCameraHasNoRayTheFilmIsBlackAndNothingIsCounted) {
+  Scene scene = random_scene(6);
+  scene.background = {1, 1, 1};
+  scene.camera = FisheyeCamera{.from = {0, 0, -7}};
+  RenderSettings s = small_settings();
+  s.width = s.height = 64, s.spp = 1;
+  RayCounters total;
+  const World world(scene);
+  const auto images = render_tile(world, s, 0, all_passes, never);
+  for (const PassImage& image : *images) total += image.counters;
+  EXPECT_NEAR(static_cast<double>(total.primary), 64 * 64 * 3.1416 / 4, 20);
+  const Probe corner = probe(world, s, 1, 1, {0, 0});
+  EXPECT_FALSE(corner.first_hit);
+  EXPECT_EQ(corner.color, glm::dvec3(0.0));
 }
 
 TEST(Render, WhatIsNotFiniteIsBlackAndCounted) {

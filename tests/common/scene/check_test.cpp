@@ -179,6 +179,62 @@ TEST(Check, TheCameraLooksSomewhere) {
               std::string::npos);
 }
 
+TEST(Check, EachKindOfCameraIsChecked) {
+  const auto camera = [](const Camera& c) { return complaint([&](Scene& s) { s.camera = c; }); };
+  for (const Camera& good : {Camera(FisheyeCamera{.angle_deg = 360}), Camera(ParabolicCamera{}),
+                             Camera(OrthographicCamera{.width = 1e-30})})
+    EXPECT_EQ(camera(good), "no complaint");
+  EXPECT_EQ(camera(FisheyeCamera{.direction = {0, 2, 0}}).find("camera: direction must not be parallel"), 0u);
+  EXPECT_EQ(camera(OrthographicCamera{.from = {0, nan, 0}}).find("camera: from"), 0u);
+  for (const double bad : {0.0, -1.0, nan, inf}) {
+    EXPECT_EQ(camera(FisheyeCamera{.angle_deg = bad}).find("camera: angle must be above 0 and at most 360"),
+              0u);
+    EXPECT_EQ(camera(ParabolicCamera{.radius = bad}).find("camera: radius must be positive"), 0u);
+    EXPECT_EQ(camera(OrthographicCamera{.width = bad}).find("camera: width must be positive"), 0u);
+  }
+  EXPECT_EQ(camera(ParabolicCamera{.size = -1}), "camera: size must be finite and not negative, is -1");
+}
+
+TEST(Check, AGlowShellStandsInUnionsAndHasNoSurface) {
+  const auto with_glow = [](const auto& spoil) {
+    return complaint([&](Scene& s) {
+      s.nodes[2] = Node{};
+      s.nodes[2].content = Glow{};
+      spoil(s);
+    });
+  };
+  EXPECT_EQ(with_glow([](Scene&) {}), "no complaint");
+  for (const CsgOp op : {CsgOp::intersect, CsgOp::subtract, CsgOp::exclusive_or})
+    EXPECT_EQ(
+        with_glow([&](Scene& s) {
+          s.nodes[0].content = Operation{op, 2};
+        }),
+        "node 2 (glow sphere): a glow shell has no inside that could be cut or cut away, put it in unions "
+        "only");
+  EXPECT_EQ(with_glow([&](Scene& s) {
+              s.nodes[0].content = Operation{CsgOp::subtract, 2};  // of a ball that is cut by a union
+              s.nodes.insert(s.nodes.begin() + 2, operation(CsgOp::unite, 1));
+            }).find("node 3 (glow sphere): a glow shell has no inside"),
+            0u);
+  EXPECT_EQ(with_glow([](Scene& s) {
+              s.nodes[2].color = glm::dvec3(1);
+            }).find("node 2 (glow sphere): a glow shell has no surface"),
+            0u);
+  EXPECT_EQ(with_glow([](Scene& s) {
+              s.nodes[2].content = Glow{Cylinder{1, 0}};
+            }).find("node 2 (glow cylinder): z_min must be below z_max"),
+            0u);
+  EXPECT_EQ(with_glow([](Scene& s) {
+              s.nodes[2].content = Glow{Sphere{}, {0, -1, 0}};
+            }),
+            "node 2 (glow sphere): color must be finite and not negative, is -1");
+  EXPECT_NE(with_glow([](Scene& s) {
+              s.nodes[0].content = Operation{CsgOp::unite, 2 + max_glows};
+              s.nodes.insert(s.nodes.end(), max_glows, s.nodes[2]);
+            }).find("at most 1024 glow shells"),
+            std::string::npos);
+}
+
 TEST(Check, ImageAndAnimationAreSane) {
   EXPECT_EQ(complaint([](Scene& s) { s.image.height = 0; }), "image: height must be at least 1");
   EXPECT_EQ(complaint([](Scene& s) { s.animation->fps = 0; }), "animation: fps must be positive, is 0");

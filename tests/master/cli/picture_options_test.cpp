@@ -17,6 +17,17 @@ TEST(PictureOptions, TheCommandLineStandsAboveTheSceneAndThatAboveTheDefaults) {
   EXPECT_EQ(settings_of(typed, scene).spp, 9u);
 }
 
+TEST(PictureOptions, AnEffectIsThereIfNeitherTheSceneNorTheCommandLineLeavesItOut) {
+  PictureOptions typed;
+  typed.no_shadows = true;
+  ImageDefaults scene;
+  scene.refractions = false;
+  const RenderSettings s = settings_of(typed, scene);
+  EXPECT_FALSE(s.shadows);
+  EXPECT_TRUE(s.reflections);
+  EXPECT_FALSE(s.refractions);
+}
+
 TEST(PictureOptions, EachOptionSetsItsSetting) {
   PictureOptions typed;
   typed.sampler = "jitter", typed.seed = ~std::uint64_t{0}, typed.max_depth = 3, typed.frame = 7;

@@ -88,8 +88,7 @@ TEST(Map, ANormalAtAnEdgeIsThatOfTheSurfaceThatMostSamplesShow) {
         PixelSurfaces found(world, Reduction::majority);
         for (std::uint32_t i = 0; i < s.spp; ++i) {
           const Sample2D place = sampler.sample(i, 0);
-          if (const auto hit = tracer.first_hit(x + place.u, y + place.v))
-            found.add(surface_sample(*hit), 1);
+          if (const auto hit = tracer.first_hit(x + place.u, y + place.v)) found.add(surface_sample(*hit), 1);
         }
         return found.ranked();
       };
@@ -127,7 +126,7 @@ TEST(Map, CountsAddUpToTheStatistics) {
 TEST(Map, ANormalRelativeToTheCameraIsTheSameNormalInItsAxes) {
   const Scene scene = random_scene(2);
   const Map world = map_by(scene, {normal}), camera = map_by(scene, {normal_camera});
-  const CameraAxes axes = axes_of(CameraRays(scene.camera, {70, 66}), {70, 66});
+  const CameraAxes axes = CameraRays(scene.camera, {70, 66}).axes();
   for (std::size_t i = 0; i < world.values.size(); i += 3) {
     const Vec3d n{camera.values[i], camera.values[i + 1], camera.values[i + 2]};
     ASSERT_EQ(std::isinf(n.x), std::isinf(world.values[i]));

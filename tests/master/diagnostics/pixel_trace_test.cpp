@@ -25,7 +25,8 @@ template <class Visit>
 void for_each_traced_pixel(Visit&& visit) {
   const RenderSettings s = small_settings();
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    const World world(seed % 2 == 0 ? random_scene(seed) : random_snapped_scene(seed));
+    constexpr Scene (*makes[])(std::uint64_t){random_scene, random_snapped_scene, random_special_scene};
+    const World world(makes[seed % 3](seed));
     for (std::uint32_t y = 0; y < side; ++y)
       for (std::uint32_t x = 0; x < side; ++x) {
         std::vector<RayRecord> rays;
@@ -95,6 +96,7 @@ TEST(RayTree, ARaysColorIsItsLightsAndTheWeighedColorsOfWhatItFollows) {
           ASSERT_EQ(followed.importance, ray.importance * followed.weight);
           sum += followed.color * followed.weight;
         }
+        for (const GlowOnRay& glow : ray.glows) sum += glow.color;
         ASSERT_EQ(sum, ray.color);
       });
   });
@@ -154,6 +156,28 @@ TEST(RayTree, OneSampleIsTheSameAsAmongAll) {
       EXPECT_EQ(one[0].ray.color, all[i].ray.color);
       EXPECT_EQ(rays_in(one), rays_in({all[i]}));
     }
+  }
+}
+
+TEST(RayTree, SamplesForWhichTheCameraHasNoRayAreLeftOut) {
+  Scene scene = random_scene(3);
+  scene.camera = FisheyeCamera{};
+  const World world(scene);
+  for (const SamplerKind sampler : {SamplerKind::sobol, SamplerKind::adapt1}) {
+    RenderSettings s = small_settings();
+    s.sampler = sampler;
+    EXPECT_TRUE(traced_samples(world, s, {0, 0}, EverySample{}).samples.empty());
+    EXPECT_TRUE(traced_samples(world, s, {0, 0}, 1u).samples.empty());
+    EXPECT_TRUE(traced_samples(world, s, {0, 0}, PixelCentre{}).samples.empty());
+    std::size_t at_the_edge = 0;
+    for (std::uint32_t i = 0; i < side; ++i)
+      for (const TracedSample& one : traced_samples(world, s, {i, 3}, EverySample{}).samples) {
+        ++at_the_edge;
+        const auto same = traced_samples(world, s, {i, 3}, *one.number).samples;
+        ASSERT_EQ(same.size(), 1u);
+        EXPECT_EQ(same[0].ray.direction, one.ray.direction);
+      }
+    EXPECT_GT(at_the_edge, 0u);
   }
 }
 
@@ -233,6 +257,7 @@ TEST(RayTree, WhatThePictureHasNotGotIsNamed) {
 TEST(CsgStory, TheMaterialBeginsOrEndsWhereThePrimaryRayHits) {
   int hits = 0;
   for_each_traced_pixel([&](const World& world, const RenderSettings&, Pixel, const auto& rays) {
+    if (rays.empty()) return;
     const RayRecord& ray = rays[0];
     const CsgStory story = csg_story(world, {ray.origin, ray.direction});
     if (!ray.hit) return;

@@ -49,6 +49,16 @@ TEST(Complaints, NameTheFunctionAndWhatItWants) {
   EXPECT_EQ(about("point{}"), "test.lua:2: point: at is missing");
   EXPECT_EQ(about("perspective{ angle = 180 }"),
             "test.lua:2: perspective: angle must be above 0 and below 180 degrees");
+  EXPECT_EQ(about("fisheye{ angle = 361 }"),
+            "test.lua:2: fisheye: angle must be above 0 and at most 360 degrees");
+  EXPECT_EQ(about("parabolic{ radius = 0 }"), "test.lua:2: parabolic: radius must be positive, is 0");
+  EXPECT_EQ(about("orthographic{ width = -1 }"), "test.lua:2: orthographic: width must be positive, is -1");
+  EXPECT_EQ(about("glow_cylinder{ 1, 1 }"), "test.lua:2: glow_cylinder: zmin must be below zmax");
+  EXPECT_EQ(about("sphere{}:no_shadow(true)"), "test.lua:2: no_shadow: takes nothing, got 1 values");
+  EXPECT_EQ(
+      about("return scene{ root = difference{ sphere{}, glow_sphere{} } }"),
+      "test.lua:2: node 2 (glow sphere): a glow shell has no inside that could be cut or cut away, put it "
+      "in unions only");
   EXPECT_EQ(about("rectangle{ at = {0,0,0}, width = {1,0,0}, height = {0,1,0}, dim = {0,0,0} }"),
             "test.lua:2: rectangle: dim must not be all zeros, {1, 0, 0} means no dimming");
 }

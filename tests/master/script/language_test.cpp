@@ -12,7 +12,7 @@ namespace {
 
 TEST(Language, EachSolidIsMadeByItsName) {
   const double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(scene_with("sphere{}").nodes[0].content, (std::variant<Operation, Solid>(Sphere{})));
+  EXPECT_EQ(scene_with("sphere{}").nodes[0].content, (NodeContent(Sphere{})));
   EXPECT_EQ(std::get<Solid>(scene_with("cube{}").nodes[0].content), Solid(Cube{}));
   EXPECT_EQ(std::get<Solid>(scene_with("plane{}").nodes[0].content), Solid(Plane{}));
   EXPECT_EQ(std::get<Solid>(scene_with("cylinder{}").nodes[0].content), Solid(Cylinder{-inf, inf}));
@@ -99,7 +99,7 @@ TEST(Language, ASceneHasAllThatItSays) {
                  rectangle{ at = {1, 1, 1}, width = {1, 0, 0}, height = {0, 2, 0}, intensity = 3, dim = {1, 2, 3} } },
       root = sphere{}:material(phong{ color = {0.1, 0.2, 0.3}, ambient = 0.4, diffuse = 0.5, specular = 0.6, exponent = 7,
                                       transmission = 0.8, index = 1.9, schlick = 0 }),
-      image = { width = 320, height = 200, spp = 9 }, animation = { start = 0, stop = 20, fps = 25 } })")
+      image = { width = 320, height = 200, spp = 9, reflections = false }, animation = { start = 0, stop = 20, fps = 25 } })")
                           .scene;
   EXPECT_EQ(scene.camera, Camera(PerspectiveCamera{{1, 2, 3}, {0, 0, -2}, {1, 0, 0}, 33}));
   EXPECT_EQ(scene.background, glm::dvec3(0.5));
@@ -108,8 +108,35 @@ TEST(Language, ASceneHasAllThatItSays) {
       RectangleLight{{1, 1, 1}, {1, 0, 0}, {0, 2, 0}, glm::dvec3(3.0), {1, 2, 3}}};
   EXPECT_EQ(scene.lights, lights);
   EXPECT_EQ(scene.materials[0], (Material{{0.1, 0.2, 0.3}, 0.4, 0.5, 0.6, 7, 0.8, 1.9, 0}));
-  EXPECT_EQ(scene.image, (ImageDefaults{320, 200, 9}));
+  EXPECT_EQ(scene.image, (ImageDefaults{320, 200, 9, true, false, true}));
   EXPECT_EQ(scene.animation, (Animation{0, 20, 25}));
+}
+
+TEST(Language, CamerasOfAllKinds) {
+  const auto camera = [](const std::string& words) {
+    return run("return scene{ root = sphere{}, camera = " + words + " }").scene.camera;
+  };
+  EXPECT_EQ(camera("fisheye{ from = {1, 2, 3}, direction = {1, 0, 0}, up = {0, 0, 1}, angle = 360 }"),
+            Camera(FisheyeCamera{{1, 2, 3}, {1, 0, 0}, {0, 0, 1}, 360}));
+  EXPECT_EQ(camera("parabolic{ from = {1, 2, 3}, radius = 2, size = 0.5 }"),
+            Camera(ParabolicCamera{{1, 2, 3}, {0, 0, 1}, {0, 1, 0}, 2, 0.5}));
+  EXPECT_EQ(camera("orthographic{ direction = {0, -1, 0}, up = {0, 0, 1}, width = 8 }"),
+            Camera(OrthographicCamera{{0, 0, 0}, {0, -1, 0}, {0, 0, 1}, 8}));
+  EXPECT_EQ(camera("fisheye{}"), Camera(FisheyeCamera{}));
+  EXPECT_EQ(camera("parabolic{}"), Camera(ParabolicCamera{}));
+  EXPECT_EQ(camera("orthographic{}"), Camera(OrthographicCamera{}));
+}
+
+TEST(Language, GlowShellsStripesAndPartsWithoutAShadow) {
+  const Scene scene = scene_with(
+      "union{ glow_cylinder{ -1, 2, color = {1, 1, 0}, exponent = 3 }, glow_sphere{}:scale(2), "
+      "sphere{}:no_shadow():texture(stripes{ 2, 3, {0.7, 0, 0} }, stripes{}) }");
+  EXPECT_EQ(scene.nodes[1].content, NodeContent(Glow{Cylinder{-1, 2}, {1, 1, 0}, 3}));
+  EXPECT_EQ(scene.nodes[2].content, NodeContent(Glow{}));
+  EXPECT_EQ(scene.nodes[2].parent_from_node, scaling(glm::dvec3(2)));
+  EXPECT_TRUE(scene.nodes[3].no_shadow);
+  EXPECT_FALSE(scene.nodes[0].no_shadow);
+  EXPECT_EQ(scene.nodes[3].textures, (std::vector<Texture>{Stripes{2, 3, {0.7, 0, 0}}, Stripes{}}));
 }
 
 TEST(Language, WhatASceneDoesNotSayHasItsDefault) {

@@ -74,7 +74,7 @@ TEST(Reference, EveryFunctionIsDescribedAndEveryDescribedOneIsThere) {
   std::set<std::string> known;
   for (const Signature& signature : all_signatures()) known.insert(std::string(signature.function));
   known.erase("image"), known.erase("animation");  // keys of scene{}
-  const std::set<std::string> described = found(split_page().prose, "`([a-z]+)[{(]");
+  const std::set<std::string> described = found(split_page().prose, "`([a-z_]+)[{(]");
   EXPECT_EQ(described, known);
   for (const std::string& name : known) EXPECT_EQ(text("type(" + name + ")"), "function") << name;
 }
@@ -135,7 +135,12 @@ TEST(Reference, TheDefaultsAreThoseOfTheScene) {
   expect_told("`specular` (" + shown(m.specular) + ")");
   expect_told("(" + std::to_string(m.exponent) + ", a whole");
   expect_told("(" + shown(m.index) + "), `schlick` (" + shown(m.schlick) + ";");
-  expect_told("`angle`\n(" + shown(PerspectiveCamera{}.angle_deg) + ";");
+  expect_told("`angle` (" + shown(PerspectiveCamera{}.angle_deg) + ";");
+  expect_told("`angle` (" + shown(FisheyeCamera{}.angle_deg) + ";");
+  expect_told("`radius` (" + shown(ParabolicCamera{}.radius) + ":");
+  expect_told("`size` of the mirror (" + shown(ParabolicCamera{}.size) + ";");
+  expect_told("`width` (" + shown(OrthographicCamera{}.width) + ")");
+  expect_told("`exponent` (" + std::to_string(Glow{}.exponent) + ", a whole");
   expect_told("`R` (" + shown(Torus{}.R) + "), `r` (" + shown(Torus{}.r) + ")");
   expect_told("`fps` (" + shown(Animation{}.fps) + ")");
   const ScriptLimits limits;

@@ -75,6 +75,7 @@ function ofRay({ ray }: RayEntry): Field[] {
     field("Weight", short(ray.weight)),
     field("Importance", short(ray.importance)),
     colored("Colour", ray.color),
+    ...(ray.glows ?? []).map(({ glow, color }) => colored(`Glow shell ${glow}`, color)),
     colored("Adds", ray.contribution),
     field("Ended", endWords(ray)),
   ];

@@ -41,6 +41,7 @@ export interface TracedRay {
   end: "missed" | "depth" | "light" | "importance" | null;
   hit: RayHit | null;
   lights: LightAtHit[];
+  glows?: { glow: number; color: Vec3 }[]; // what glow shells on the way added
   rays: TracedRay[];
   not_traced: Untraced[];
 }
