@@ -34,6 +34,24 @@ std::uint32_t shown_leaf(std::span<const CsgItem> items, const CsgWorkspace& ws,
   return shown_leaf(items, ws, shown);
 }
 
+/// The event to show of a group [first, next) that changed the side of the whole object.
+std::size_t shown_event(std::span<const CsgItem> items, const CsgWorkspace& ws, std::size_t first) {
+  const std::uint32_t item = shown_leaf(items, ws, 0);
+  while (ws.events[first].item != item) ++first;
+  return first;
+}
+
+/// Toggles the leaves of all events that overlap number `next`, the object's counts before them kept in
+/// counts_before if they are several. Returns the first event's number; `next` goes on behind them.
+std::size_t pass_group(std::span<const CsgItem> items, CsgWorkspace& ws, std::size_t& next) {
+  const std::size_t first = next++;
+  double hi = ws.events[first].hi;
+  while (next < ws.events.size() && ws.events[next].lo <= hi) hi = greatest(hi, ws.events[next++].hi);
+  if (next - first > 1) ws.counts_before = ws.counts;
+  for (std::size_t e = first; e < next; ++e) toggle(items, ws.counts, ws.events[e].item);
+  return first;
+}
+
 }  // namespace
 
 template bool gather(std::span<const CsgItem>, std::span<const Leaf>, const RayQuery&, double, CsgWorkspace&);
@@ -41,24 +59,45 @@ template bool gather(std::span<const CsgItem>, std::span<const Leaf>, const RayQ
 bool next_boundary(std::span<const CsgItem> items, CsgWorkspace& ws, std::size_t& next, Boundary& found) {
   const auto inside = [&] { return is_inside(items[0], ws.counts[0]); };
   while (next < ws.events.size()) {
-    const std::size_t first = next++;
-    double hi = ws.events[first].hi;
-    while (next < ws.events.size() && ws.events[next].lo <= hi) hi = greatest(hi, ws.events[next++].hi);
-
     const bool before = inside();
+    const std::size_t first = pass_group(items, ws, next);
+    if (inside() == before) continue;
+    const CsgWorkspace::Event& e = ws.events[next - first == 1 ? first : shown_event(items, ws, first)];
+    found = {e.t, e.error, items[e.item].leaf, ws.counts[e.item] != 0, !before};
+    return true;
+  }
+  return false;
+}
+
+std::uint32_t filling_item(std::span<const CsgItem> items, const CsgWorkspace& ws) {
+  const auto holds = [&](std::uint32_t item) { return is_inside(items[item], ws.counts[item]); };
+  if (!holds(0)) return no_leaf;
+  std::uint32_t filling = 0;
+  while (items[filling].leaf == no_leaf) {
+    const CsgItem& node = items[filling];
+    std::uint32_t child = ++filling;  // of a difference
+    for (std::uint32_t i = 0; node.op != CsgOp::subtract && i < node.children; ++i, child = items[child].next)
+      if (holds(child)) filling = child;
+  }
+  return filling;
+}
+
+bool next_filling(std::span<const CsgItem> items, CsgWorkspace& ws, std::size_t& next,
+                  FillingChange& change) {
+  while (next < ws.events.size()) {
+    change.before = filling_item(items, ws);
+    const std::size_t first = pass_group(items, ws, next);
+    change.after = filling_item(items, ws);
+    if (change.before == change.after) continue;
     std::size_t shown = first;
-    if (next - first == 1) {
-      toggle(items, ws.counts, ws.events[first].item);
-      if (inside() == before) continue;
+    if (next - first > 1 && (change.before == no_leaf || change.after == no_leaf)) {
+      shown = shown_event(items, ws, first);
     } else {
-      ws.counts_before = ws.counts;
-      for (std::size_t e = first; e < next; ++e) toggle(items, ws.counts, ws.events[e].item);
-      if (inside() == before) continue;
-      const std::uint32_t item = shown_leaf(items, ws, 0);
-      while (ws.events[shown].item != item) ++shown;
+      for (std::size_t e = first; e < next; ++e)
+        if (ws.events[e].item == change.after || ws.events[e].item == change.before) shown = e;
     }
     const CsgWorkspace::Event& e = ws.events[shown];
-    found = {e.t, e.error, items[e.item].leaf, ws.counts[e.item] != 0, !before};
+    change.found = {e.t, e.error, items[e.item].leaf, ws.counts[e.item] != 0, false};
     return true;
   }
   return false;

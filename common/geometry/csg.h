@@ -34,6 +34,8 @@ struct Boundary {
   std::uint32_t leaf;
   bool leaf_entering;  // the ray goes into the leaf
   bool entering;       // the ray goes into the material
+  std::uint32_t inner = unknown_medium,
+                outer = unknown_medium;  // the material's side and the other: nested media
 };
 
 /// Memory for one thread's rays, reused from ray to ray.
@@ -96,6 +98,19 @@ bool gather(std::span<const CsgItem> items, std::span<const Leaf> leaves, const 
 /// left.
 bool next_boundary(std::span<const CsgItem> items, CsgWorkspace& workspace, std::size_t& next,
                    Boundary& found);
+
+/// The item of the leaf that fills the object where the workspace's counts stand: of a difference one of its
+/// first part, else the last one in the tree that holds the place. None outside.
+std::uint32_t filling_item(std::span<const CsgItem> items, const CsgWorkspace& workspace);
+
+/// Goes on to the next change of what fills a gathered object, which changes from `before` to `after` (items,
+/// or no_leaf outside). Of `found`, entering is not set.
+struct FillingChange {
+  Boundary found;
+  std::uint32_t before, after;
+};
+bool next_filling(std::span<const CsgItem> items, CsgWorkspace& workspace, std::size_t& next,
+                  FillingChange& change);
 
 /// The crossings of one leaf ahead of the ray, also when the ray starts on it.
 inline Crossings crossings_ahead(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {

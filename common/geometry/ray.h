@@ -11,6 +11,10 @@ namespace rayfarm {
 
 constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
 
+/// What fills a place of a scene with nested media: a material's number, or one of these.
+constexpr std::uint32_t unknown_medium = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t empty_space = unknown_medium - 1;
+
 /// Of the scene's material. To which a ray was sent that leaves a surface is known, not computed: by it errors show.
 enum class Side : std::uint8_t { outside, inside, unknown };
 
@@ -31,7 +35,10 @@ struct Ray {
   std::uint32_t left_leaf = no_leaf;
   bool into_leaf = false;  // the ray goes to the inner side of left_leaf
   Side side = Side::unknown;
+  std::uint32_t medium = unknown_medium;  // into which the ray was sent
 };
+
+inline bool is_sent_inside(const Ray& ray) { return ray.side == Side::inside || ray.medium < empty_space; }
 
 /// A ray with what every box and leaf asks of it, derived once.
 struct RayQuery {

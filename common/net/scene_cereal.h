@@ -88,6 +88,7 @@ void serialize(Archive& archive, Animation& a) {
 template <class Archive>
 void serialize(Archive& archive, Scene& s) {
   archive(s.nodes, s.materials, s.camera, s.background, s.lights, s.image, s.animation);
+  boolean(archive, s.nested_media);
 }
 
 }  // namespace rayfarm

@@ -47,6 +47,10 @@ void apply(const Squares& texture, const TextureCoordinates& at, Vec3d& color) {
   if (shows_color(texture, at)) color = vec(texture.color);
 }
 
+double index_of(const World::Parts& w, std::uint32_t medium) {
+  return medium == empty_space ? 1 : w.materials[medium].index;
+}
+
 }  // namespace
 
 Hit hit_at(const World::Parts& w, const RayQuery& q, const Boundary& b) {
@@ -70,6 +74,8 @@ Hit hit_at(const World::Parts& w, const RayQuery& q, const Boundary& b) {
   hit.material = &w.materials[surface.material];
   hit.leaf = b.leaf;
   hit.leaf_entering = b.leaf_entering, hit.entering = b.entering;
+  hit.inner = b.inner, hit.outer = b.outer;
+  hit.index = b.inner == unknown_medium ? hit.material->index : index_of(w, b.inner) / index_of(w, b.outer);
   return hit;
 }
 
@@ -93,7 +99,10 @@ Ray ray_from(const Hit& hit, const Vec3d& direction, bool outside) {
           hit.point_error,
           hit.leaf,
           outside != leaf_is_material,
-          outside ? Side::outside : Side::inside};
+          hit.inner != unknown_medium ? Side::unknown
+          : outside                   ? Side::outside
+                                      : Side::inside,
+          outside ? hit.outer : hit.inner};
 }
 
 }  // namespace rayfarm

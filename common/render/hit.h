@@ -12,15 +12,23 @@ struct Hit {
   Vec3d normal{};          // unit, out of the material, whichever way the ray came
   Vec3d color{};           // of the surface, textures applied
   const Material* material = nullptr;
+  double index = 1;  // of refraction: the material's side over the other
   std::uint32_t leaf = 0;
   bool leaf_entering = false;  // the ray goes into the leaf
   bool entering = false;       // the ray goes into the material: it came from outside
+  std::uint32_t inner = unknown_medium, outer = unknown_medium;  // what fills both sides: nested media
 };
 
 Hit hit_at(const World::Parts& world, const RayQuery& ray, const Boundary& boundary);
 
 /// A hash of the cells of all textures in which the hit lies.
 std::uint64_t texture_cells(const World::Parts& world, const Ray& ray, const Hit& hit);
+
+/// Whether a ray sent to a side, or into a medium, cannot have come to that hit.
+inline bool contradicts(const Ray& ray, const Hit& hit) {
+  if (ray.medium != unknown_medium) return ray.medium != (hit.entering ? hit.outer : hit.inner);
+  return contradicts(ray.side, hit.entering);
+}
 
 /// A ray that leaves the hit on the outer (or inner) side of the material.
 Ray ray_from(const Hit& hit, const Vec3d& direction, bool outside);

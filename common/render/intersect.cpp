@@ -1,8 +1,12 @@
 #include "common/render/intersect.h"
 
+#include "common/render/nested_media.h"
+
 namespace rayfarm {
 
 template std::optional<Boundary> first_boundary(const World::Parts&, const RayQuery&, WorldWorkspace&);
+template std::optional<Boundary> first_change_of_medium(const World::Parts&, const RayQuery&,
+                                                        WorldWorkspace&);
 template bool is_blocked(const World::Parts&, const RayQuery&, WorldWorkspace&);
 
 std::optional<Boundary> first_blocker(const World::Parts& w, const RayQuery& q, WorldWorkspace& ws) {

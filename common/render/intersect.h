@@ -3,6 +3,8 @@
 // A ray that starts outside everything meets the union's surface where it first enters an object. One that
 // starts inside an object (refraction, a camera in glass) follows the union until it has left all of them.
 //
+// In a scene with nested media, nested_media.h does it.
+//
 // For the files that instantiate it: one for each workspace, so that the one that counts nothing is compiled as if
 // there were no other.
 #pragma once
@@ -141,6 +143,7 @@ std::optional<Boundary> blocker_in(const World::Parts& w, const ObjectRef& ref, 
 
 template <class Csg>
 std::optional<Boundary> first_boundary(const World::Parts& w, const RayQuery& q, WorkspaceWith<Csg>& ws) {
+  if (w.scene.nested_media) return first_change_of_medium(w, q, ws);
   bool starts_inside = false, found = false;
   Boundary best{};
   std::uint32_t best_object = 0;

@@ -7,12 +7,12 @@
 
 namespace rayfarm {
 
-PhongWeights phong_weights(const Material& m, double a, bool viewer_outside) {
+PhongWeights phong_weights(const Material& m, double index, double a, bool viewer_outside) {
   const double schlick = m.schlick * deterministic::integer_power(1 - least(std::fabs(a), 1), 5);
   PhongWeights k{m.diffuse * (1 - schlick), m.specular + schlick * (m.diffuse + m.transmission),
                  m.transmission * (1 - schlick)};
   if (!viewer_outside && a <= 0) {
-    const double cos_total = m.index > 1 ? std::sqrt(m.index * m.index - 1) / m.index : 0;
+    const double cos_total = index > 1 ? std::sqrt(index * index - 1) / index : 0;
     if (-a <= cos_total) {
       k.specular += k.transmission;
       if (k.specular + k.diffuse > 1) k.specular = 1 - k.diffuse;
@@ -32,14 +32,14 @@ std::optional<Vec3d> refracted(const Vec3d& d, const Vec3d& n, double index) {
   return facing * (ratio * cosine - std::sqrt(square)) - d * ratio;
 }
 
-Vec3d phong(const Material& m, const Vec3d& color, const Vec3d& n, const Vec3d& to_viewer, double cos_view,
-            const Vec3d& to_light) {
+Vec3d phong(const Material& m, double index, const Vec3d& color, const Vec3d& n, const Vec3d& to_viewer,
+            double cos_view, const Vec3d& to_light) {
   const double a = dot(n, to_light);
   const bool viewer_outside = cos_view > 0;
-  const PhongWeights k = phong_weights(m, a, viewer_outside);
+  const PhongWeights k = phong_weights(m, index, a, viewer_outside);
   // Seen from inside, the light comes through: its highlight lies where refraction sends it.
   const std::optional<Vec3d> highlight =
-      viewer_outside ? std::optional(mirrored(to_light, n)) : refracted(to_light, n, m.index);
+      viewer_outside ? std::optional(mirrored(to_light, n)) : refracted(to_light, n, index);
   const double share = viewer_outside ? 1 : k.transmission;
   Vec3d sum = color * (share * k.diffuse * a);
   const double along = highlight ? dot(*highlight, to_viewer) : 0;

@@ -126,13 +126,12 @@ class Tracer {
   }
 
   Vec3d radiance_of_nothing(const Ray& ray) {
-    if (ray.side == Side::inside && !ends_inside(state_.world, RayQuery(ray), state_.workspace))
-      observer.lost();
+    if (is_sent_inside(ray) && !ends_inside(state_.world, RayQuery(ray), state_.workspace)) observer.lost();
     return state_.background;
   }
 
   Vec3d radiance_at(const Hit& hit, const Ray& ray, std::uint32_t depth, double importance) {
-    if (contradicts(ray.side, hit.entering)) observer.lost();
+    if (contradicts(ray, hit)) observer.lost();
     const Vec3d to_viewer = -ray.direction;
     // Grazing, the rounded cosine can have the wrong sign; the side is known from the boundary.
     const double rounded = dot(hit.normal, to_viewer);
@@ -150,7 +149,7 @@ class Tracer {
 
     const Material& material = *hit.material;
     if (state_.settings.reflections) {
-      const double weight = phong_weights(material, cos_view, hit.entering).specular;
+      const double weight = mirror_weight(hit, to_viewer, cos_view);
       if (goes_on(importance * weight)) {
         observer.begin(weight);
         const Ray next = ray_from(hit, mirrored(to_viewer, hit.normal), hit.entering);
@@ -163,7 +162,7 @@ class Tracer {
       const double weight = material.transmission;
       if (!goes_on(importance * weight)) {
         observer.not_traced(RayKind::refracted, weight, NotTraced::importance);
-      } else if (const std::optional<Vec3d> direction = refracted(to_viewer, hit.normal, material.index)) {
+      } else if (const std::optional<Vec3d> direction = refracted(to_viewer, hit.normal, hit.index)) {
         observer.begin(weight);
         const Ray next = ray_from(hit, *direction, !hit.entering);
         color += radiance(next, RayKind::refracted, depth + 1, importance * weight) * weight;
@@ -172,6 +171,15 @@ class Tracer {
       }
     }
     return color;
+  }
+
+  static double mirror_weight(const Hit& hit, const Vec3d& to_viewer, double cos_view) {
+    const PhongWeights k = phong_weights(*hit.material, hit.index, cos_view, hit.entering);
+    // From a denser medium outside, total reflection takes what would go through. (Phong's weights know it only
+    // from inside.)
+    const bool is_total = hit.outer != unknown_medium && hit.entering && hit.index < 1 &&
+                          !refracted(to_viewer, hit.normal, hit.index);
+    return is_total ? least(k.specular + k.transmission, 1 - k.diffuse) : k.specular;
   }
 
   /// A ray that adds nothing is not traced, whatever the limit says.
@@ -191,8 +199,8 @@ class Tracer {
       if (blocked) return {};
     }
     const double distance = length(to_light);
-    const Vec3d direct =
-        phong(*hit.material, hit.color, hit.normal, to_viewer, cos_view, to_light * (1 / distance));
+    const Vec3d direct = phong(*hit.material, hit.index, hit.color, hit.normal, to_viewer, cos_view,
+                               to_light * (1 / distance));
     if (!light.dimmed) return direct;
     const glm::dvec3& dim = light.dimmed->dim;
     return direct * (1 / (dim[0] + dim[1] * distance + dim[2] * distance * distance));

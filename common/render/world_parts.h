@@ -64,6 +64,7 @@ template <class Csg>
 struct WorkspaceWith {
   Csg csg;
   std::vector<UnionEvent> events;
+  std::vector<std::uint32_t> filling;  // see nested_media.h
 };
 using WorldWorkspace = WorkspaceWith<CsgWorkspace>;
 using CountingWorkspace = WorkspaceWith<CountingCsgWorkspace>;
@@ -72,6 +73,11 @@ using CountingWorkspace = WorkspaceWith<CountingCsgWorkspace>;
 template <class Csg>
 std::optional<Boundary> first_boundary(const World::Parts& world, const RayQuery& ray,
                                        WorkspaceWith<Csg>& workspace);
+
+/// The same in a scene with nested media, where first_boundary() leads.
+template <class Csg>
+std::optional<Boundary> first_change_of_medium(const World::Parts& world, const RayQuery& ray,
+                                               WorkspaceWith<Csg>& workspace);
 
 /// Whether a surface that casts shadows stands at 0 < t <= 1 of a ray that starts outside all material.
 template <class Csg>

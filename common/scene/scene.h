@@ -162,6 +162,9 @@ struct Scene {
   std::vector<Light> lights;
   ImageDefaults image;
   std::optional<Animation> animation;
+  /// A surface is wherever another material begins, also inside a solid: see render/nested_media.h. Without it
+  /// only the outside of the union of all is a surface, and outside of a material the index is 1.
+  bool nested_media = false;
   bool operator==(const Scene&) const = default;
 };
 

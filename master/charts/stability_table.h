@@ -22,7 +22,7 @@ struct StabilityRow {
   double rate() const { return static_cast<double>(failures) / static_cast<double>(rays); }
   /// What the true rate is below with 95 % confidence when no failure was seen. Source: J. A. Hanley and A.
   /// Lippman-Hand, If Nothing Goes Wrong, Is Everything All Right?, JAMA 249, 1983 (the rule of three).
-  double bound() const { return 3 / static_cast<double>(rays); }
+  double bound() const { return rays < 3 ? 1 : 3 / static_cast<double>(rays); }
   bool passes() const { return !allowed || rate() <= *allowed; }
   bool operator==(const StabilityRow&) const = default;
 };

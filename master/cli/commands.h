@@ -15,6 +15,7 @@ void add_stats_command(CLI::App& app, Command& chosen);
 void add_map_command(CLI::App& app, Command& chosen);
 void add_cloud_command(CLI::App& app, Command& chosen);
 void add_trace_command(CLI::App& app, Command& chosen);
+void add_chart_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
 void add_submit_command(CLI::App& app, Command& chosen);
 void add_job_commands(CLI::App& app, Command& chosen);  // jobs, job, watch, pause, resume, cancel, priority

@@ -75,6 +75,7 @@ ExitCode show_job(const JobArguments& a) {
       {"frame", number_in(settings, "frame")},
       {"rays", short_count(counters.at("rays").get<double>())},
       {"bad samples", number_in(counters, "bad_samples")},
+      {"lost rays", number_in(counters, "lost")},
       {"tiles given back", number_in(job, "tiles_given_back")},
       {"output", text_in(job, "output")},
       {"scene", text_in(job, "scene_hash")},

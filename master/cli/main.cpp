@@ -91,6 +91,7 @@ int run_command_line(int argc, char** argv) {
   add_cloud_command(app, chosen);
   add_trace_command(app, chosen);
   add_compare_command(app, chosen);
+  add_chart_command(app, chosen);
   if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1])) return complain(app, argv[1]);
   try {
     app.parse(argc, argv);

@@ -48,10 +48,11 @@ void print_summary(const RenderArguments& a, const PreparedScene& scene, const R
     print_json(summary);
     return;
   }
-  std::printf("%s: %ux%u in %.2f s, %s samples, %s rays, bad samples: %llu\n", a.picture.output.c_str(),
+  std::printf("%s: %ux%u in %.2f s, %s samples, %s rays, bad samples: %llu, lost rays: %llu\n", a.picture.output.c_str(),
               s.width, s.height, seconds, short_count(static_cast<double>(samples)).c_str(),
               short_count(static_cast<double>(counters.rays())).c_str(),
-              static_cast<unsigned long long>(counters.bad_samples));
+              static_cast<unsigned long long>(counters.bad_samples),
+              static_cast<unsigned long long>(counters.lost));
 }
 
 /// The maps to put beside the picture.

@@ -77,7 +77,7 @@ Table table_of_rays(const Report& r) {
   row("primary", c.primary), row("reflected", c.reflected), row("refracted", c.refracted);
   row("shadow", c.shadow), row("all", c.rays());
   row("hits", c.primary_hits + c.secondary_hits), row("misses", c.misses());
-  row("lost", c.lost), row("bad samples", c.bad_samples);
+  row("lost rays", c.lost), row("bad samples", c.bad_samples);
   return rays;
 }
 

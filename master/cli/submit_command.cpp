@@ -61,6 +61,7 @@ ExitCode submit(const SubmitArguments& a) {
   if (a.json) print_json(ended);
   expect_done(ended);
   write_job_picture(a.picture.output, ended, fetch_film(ended), a.picture.curve());
+  if (!a.json) std::fprintf(stderr, "lost rays: %llu\n", ended.at("counters").at("lost").get<unsigned long long>());
   return ExitCode::done;
 }
 

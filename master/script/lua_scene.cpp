@@ -18,7 +18,8 @@ const Signature orthographic_signature{"orthographic", {"from", "direction", "up
 const Signature ambient_signature{"ambient", {}};
 const Signature point_signature{"point", {"at", "intensity"}};
 const Signature rectangle_signature{"rectangle", {"at", "width", "height", "intensity", "dim"}};
-const Signature scene_signature{"scene", {"camera", "background", "lights", "root", "image", "animation"}};
+const Signature scene_signature{
+    "scene", {"camera", "background", "lights", "root", "image", "animation", "nested_media"}};
 const Signature image_signature{"image", {"width", "height", "spp", "shadows", "reflections", "refractions"}};
 const Signature animation_signature{"animation", {"start", "stop", "fps"}};
 
@@ -196,6 +197,7 @@ int make_scene(lua_State* L) {
   scene.lights = read_lights(L, fields);
   scene.image = read_image(L, fields);
   scene.animation = read_animation(L, fields);
+  scene.nested_media = fields.boolean("nested_media", scene.nested_media);
   fields.require("root");
   fields.push("root");
   append_tree(L, -1, scene);

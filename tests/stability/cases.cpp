@@ -10,6 +10,11 @@ std::vector<Case> all_cases() {
            stacked_slab_cases(),
            menger_cases(),
            random_tree_cases(),
+           self_intersection_cases(),
+           refraction_cases(),
+           sampler_cases(),
+           same_bits_cases(),
+           whole_scene_cases(),
        })
     all.insert(all.end(), group.begin(), group.end());
   return all;

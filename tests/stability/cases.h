@@ -4,11 +4,16 @@
 
 namespace rayfarm::stability {
 
-std::vector<Case> shared_face_cases();   // S12
-std::vector<Case> twin_cases();          // S13
-std::vector<Case> stacked_slab_cases();  // S14
-std::vector<Case> menger_cases();        // S16
-std::vector<Case> random_tree_cases();   // S17
+std::vector<Case> shared_face_cases();        // S12
+std::vector<Case> twin_cases();               // S13
+std::vector<Case> stacked_slab_cases();       // S14
+std::vector<Case> menger_cases();             // S16
+std::vector<Case> random_tree_cases();        // S17
+std::vector<Case> self_intersection_cases();  // S19
+std::vector<Case> refraction_cases();         // S20
+std::vector<Case> sampler_cases();            // S22
+std::vector<Case> same_bits_cases();          // S26; between programs: same_bytes_test, builds.sh
+std::vector<Case> whole_scene_cases();        // S30
 
 /// All of them, in the order of their numbers.
 std::vector<Case> all_cases();

@@ -32,6 +32,7 @@ Scene named_scene(std::mt19937_64& random) {
     if (random() % 2) node.name = random_name(random);
   if (random() % 2)
     scene.image = {random() % 1000 + 1, std::nullopt, 16, random() % 2 == 0, true, random() % 2 == 0};
+  scene.nested_media = random() % 2;
   if (random() % 2) scene.animation = Animation{0, 20, 25};
   return scene;
 }

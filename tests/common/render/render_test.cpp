@@ -8,6 +8,7 @@
 
 #include "common/render/probe.h"
 #include "tests/support/mirror_hall.h"
+#include "tests/support/moved_scene.h"
 #include "tests/support/random_scene.h"
 
 namespace rayfarm {
@@ -83,24 +84,6 @@ TEST(Render, AStopIsHeardInMidSample) {
   EXPECT_EQ(render_tile(World(mirror_hall()), s, 0, all_passes, [&] { return ++questions > 10; }),
             std::nullopt);
   EXPECT_EQ(questions, 11);
-}
-
-/// All lengths of the scene times 2^k.
-Scene scaled(Scene scene, int k) {
-  const double f = std::ldexp(1.0, k);
-  Affine& root = scene.nodes[0].parent_from_node;
-  root = scaling({f, f, f}) * root;
-  std::visit([&](auto& camera) { camera.from *= f; }, scene.camera);
-  if (auto* parabolic = std::get_if<ParabolicCamera>(&scene.camera)) parabolic->size *= f;
-  if (auto* orthographic = std::get_if<OrthographicCamera>(&scene.camera)) orthographic->width *= f;
-  for (Light& light : scene.lights) {
-    if (auto* point = std::get_if<PointLight>(&light)) point->at *= f;
-    if (auto* r = std::get_if<RectangleLight>(&light)) {
-      r->at *= f, r->width *= f, r->height *= f;
-      r->dim[1] /= f, r->dim[2] /= f * f;
-    }
-  }
-  return scene;
 }
 
 TEST(Render, AllLengthsTimesAPowerOfTwoGiveTheSameBits) {

@@ -45,7 +45,7 @@ TEST(Stats, ArePrintedAsTables) {
   const ProgramResult result = small("stats");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* word :
-       {"primary", "12288", "misses", "lost", "plane #", "SOLIDS TESTED", "PHASE", "64x48"})
+       {"primary", "12288", "misses", "lost rays", "plane #", "SOLIDS TESTED", "PHASE", "64x48"})
     EXPECT_NE(result.out.find(word), std::string::npos) << word;
 }
 
