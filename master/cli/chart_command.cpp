@@ -1,5 +1,6 @@
 // rayfarm chart: error against time of all samplers, or the stability suite's failures against conditioning.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 struct ChartArguments {
   PictureOptions picture;
   std::string folder, stability_csv;
+  std::vector<std::string> cases;  // beginnings of names; empty: all
   std::uint32_t most_spp = 256;
   std::optional<std::uint32_t> reference_spp;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
@@ -108,6 +110,12 @@ ExitCode chart_stability(const ChartArguments& a) {
   } catch (const CsvError& error) {
     throw FileError(a.stability_csv + ": " + error.what());
   }
+  std::erase_if(rows, [&](const StabilityRow& row) {
+    return !a.cases.empty() && std::ranges::none_of(a.cases, [&](const std::string& begin) {
+      return row.name.starts_with(begin);
+    });
+  });
+  if (rows.empty()) throw FileError(a.stability_csv + " has no row to chart");
   make_folder(a.folder);
   write_text(fs::path(a.folder) / "stability.svg", svg_of(stability_charts(rows), 3));
   return ExitCode::done;
@@ -143,6 +151,8 @@ void add_chart_command(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(1u, 1024u));
   command->add_option("--stability", a->stability_csv,
                       "stability.csv of the stability suite, instead of a scene");
+  command->add_option("--cases", a->cases, "Of these cases alone, by the beginnings of their names: S13,S16")
+      ->delimiter(',');
   command->footer(
       "Examples:\n  rayfarm chart scenes/circus.lua -o charts\n"
       "  rayfarm chart --stability build/tests/stability/stability.csv -o charts");

@@ -190,15 +190,6 @@ std::optional<std::string> Fields::text(std::string_view key) const {
   return s;
 }
 
-bool Fields::boolean(std::string_view key, bool otherwise) const {
-  if (!push(key)) return otherwise;
-  if (!lua_isboolean(L_, -1))
-    throw SceneError(place(key) + " must be true or false, is " + description(L_, -1));
-  const bool value = lua_toboolean(L_, -1);
-  lua_pop(L_, 1);
-  return value;
-}
-
 bool Fields::has(std::string_view key) const {
   if (!push(key)) return false;
   lua_pop(L_, 1);
