@@ -67,10 +67,6 @@ std::string text_of(const std::string& scene) {
 
 Scene scene_of(const std::string& text) { return evaluate({"difference", text, {}, 0}).scene; }
 
-std::string with(std::string text, const std::string& part, const std::string& instead) {
-  return text.replace(text.find(part), part.size(), instead);
-}
-
 /// A thousandth of its size.
 Scene made_small(Scene scene) {
   const double k = 1e-3;
@@ -90,15 +86,17 @@ Scene seen_along_z(const std::string& root) {
 }
 
 std::vector<Crop> crops() {
-  const Scene toroids = scene_of(text_of("toroids"));
-  const Scene touching = scene_of(with(with(text_of("flags"), "-2.0001", "-2"), "0.4999", "0.5"));
-  return {
-      {"torus", toroids, 640, 480, 300, 120, 160, 120, 2},
-      {"contact", touching, 640, 480, 40, 250, 160, 120, 2},
-      {"axial_cylinder", seen_along_z("cylinder{ -1, 1 }:color{0.1, 0.7, 0}"), 45, 45, 0, 0, 45, 45, 6},
-      {"parallel_plane", seen_along_z("intersection{ sphere{}, plane{}:rotate_x(-90) }:color{0.8, 0.6, 0}"),
-       45, 45, 0, 0, 45, 45, 6},
-      {"small_scene", made_small(scene_of(text_of("sphere_plane"))), 640, 480, 140, 190, 160, 120, 2}};
+  // The front faces are one plane, to which the two cubes come by different turns.
+  const Scene touching = seen_along_z(R"(union{
+    cube{}:translate(-0.5, -0.5, -0.5):rotate_z(45):rotate_y(20):color{1, 0, 0},
+    cube{}:translate(-0.5, -0.5, -0.5):scale(2.6, 1.8, 1):rotate_y(50):rotate_y(-30):color(1) })");
+  const Scene half_ball =
+      seen_along_z("intersection{ sphere{}, plane{}:rotate_x(-90):translate(0, 0.3, 0) }:color{0.8, 0.6, 0}");
+  return {{"torus", scene_of(text_of("toroids")), 640, 480, 20, 335, 160, 40, 2},
+          {"contact", touching, 90, 60, 0, 0, 90, 60, 4},
+          {"axial_cylinder", seen_along_z("cylinder{ -1, 1 }:color{0.1, 0.7, 0}"), 45, 45, 0, 0, 45, 45, 5},
+          {"parallel_plane", half_ball, 45, 45, 0, 0, 45, 45, 5},
+          {"small_scene", made_small(scene_of(text_of("sphere_plane"))), 640, 480, 150, 280, 160, 70, 2}};
 }
 
 }  // namespace
