@@ -70,7 +70,7 @@ class DepthOracle {
   }
 
   Crossings along(std::uint32_t leaf, double x, double y) const {
-    return crossings_ahead(world_.leaves[leaf], leaf, RayQuery(camera_.ray(x, y)));
+    return crossings_ahead(world_.leaves[leaf], leaf, RayQuery(*camera_.ray(x, y)));
   }
   int crossing_at_depth(std::uint32_t leaf, double x, double y, double depth) const {
     const Crossings all = along(leaf, x, y);
