@@ -140,8 +140,9 @@ describe("a scene", () => {
 });
 
 describe("a clone", () => {
+  const still = { first: 0, last: 0, step: 1, total: 1, sent: 1, done: 0, current: 0 };
   const job = (id: number, name: string): Job =>
-    ({ id, name, priority: 5, parameters: {}, settings: { ...emptyForm().switches } }) as Job;
+    ({ id, name, priority: 5, parameters: {}, frames: still, settings: { ...emptyForm().switches } }) as Job;
 
   it("is filled in once, so that changes are not lost", () => {
     prefill(job(9, "flake"));

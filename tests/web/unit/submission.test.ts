@@ -6,6 +6,8 @@ import {
   faultsOf,
   fileFault,
   formOf,
+  framesOf,
+  lastFrame,
   nothingDeclared,
   parameterFault,
   type Declared,
@@ -148,6 +150,7 @@ describe("a cloned job", () => {
     priority: 60,
     parameters: { depth: "6" },
     settings,
+    frames: { first: 0, last: 0, step: 1, total: 1, sent: 1, done: 0, current: 0 },
   } as unknown as Job;
   it("has the same settings and scene until they are changed", () => {
     const form = formOf(job);
@@ -170,4 +173,28 @@ describe("a file", () => {
   it("of 1 MB is taken", () => expect(fileFault({ name: "my.LUA", size: 1024 * 1024 })).toBeNull());
   it("that is no script is refused", () =>
     expect(fileFault({ name: "cat.png", size: 9 })).toBe("cat.png is no .lua file."));
+});
+
+describe("the frames of an animation", () => {
+  const animated: Declared = { ...nothingDeclared, animation: { start: 1, stop: 3, fps: 10 } };
+  const faultOf = (frames: string, declared = animated) => faultsOf({ ...ready, frames }, declared).frames;
+  it.each(["", "0-20", " 3 - 9 : 2 ", "20-20"])("may be written as '%s'", (text) =>
+    expect(faultOf(text)).toBeUndefined(),
+  );
+  it.each(["x", "1", "1-", "-1", "1-2:", "1.5-2", "0-99999999999"])("are not '%s'", (text) =>
+    expect(faultOf(text)).toContain("written as 0-99"),
+  );
+  it("are those that the scene has", () => {
+    expect(lastFrame(animated.animation!)).toBe(20);
+    expect(lastFrame({ start: 0, stop: 0.29, fps: 100 })).toBe(29); // though 0.29 * 100 is less
+    expect(faultOf("0-21")).toBe("The animation's last frame is 20.");
+    expect(faultOf("4-3")).toBe("The first frame comes after the last.");
+    expect(faultOf("0-4:0")).toBe("The step must be 1 or more.");
+    expect(faultOf("0-4", nothingDeclared)).toContain("no animation");
+  });
+  it("are sent as numbers", () => {
+    expect(framesOf("3-9:2")).toEqual({ first: 3, last: 9, step: 2 });
+    expect(bodyOf({ ...ready, frames: "0-20" }, animated).frames).toEqual({ first: 0, last: 20, step: 1 });
+    expect(bodyOf(ready, animated)).not.toHaveProperty("frames");
+  });
 });

@@ -1,6 +1,7 @@
 // The address after #: which page, which job, and how it is looked at; so that links and the back button work.
-//   #/jobs/7?layer=depth&reduce=mean    #/submit?from=7    #/workers
+//   #/jobs/7?frame=12&layer=depth&reduce=mean    #/submit?from=7    #/workers
 import { batch, effect, signal } from "@preact/signals";
+import { chosenFrame } from "./frames";
 import { layer, selectedId } from "./state";
 import type { LayerChoice, Reduction } from "./types";
 
@@ -46,6 +47,8 @@ export function queryOf(choice: LayerChoice): Query {
   };
 }
 
+const frameQueryOf = (frame: number | null): Query => (frame === null ? {} : { frame: String(frame) });
+
 /// Whether going from one to the other is a step that the back button undoes.
 export function isStep(from: Route, to: Route): boolean {
   return from.page !== to.page || (from.job !== to.job && from.job !== null);
@@ -74,7 +77,7 @@ export function routeTo(to: Page): Route {
     case "submit":
       return { page: to, job: null, query: cloned.value === null ? {} : { from: String(cloned.value) } };
     case "jobs":
-      return { page: to, job: selectedId.value, query: { ...queryOf(layer.value), ...viewQuery.value } };
+      return { page: to, job: selectedId.value, query: { ...queryOf(layer.value), ...frameQueryOf(chosenFrame.value), ...viewQuery.value } };
   }
 }
 
@@ -83,7 +86,8 @@ function take(route: Route): void {
   if (route.page === "submit")
     cloned.value = /^\d+$/.test(route.query.from ?? "") ? Number(route.query.from) : null;
   if (route.page !== "jobs") return;
-  const { layer: name, reduce, compat, ...others } = route.query;
+  const { layer: name, reduce, compat, frame, ...others } = route.query;
+  chosenFrame.value = /^\d{1,10}$/.test(frame ?? "") ? Number(frame) : null;
   selectedId.value = route.job ?? selectedId.value;
   layer.value = layerIn({
     ...(name && { layer: name }),

@@ -31,6 +31,17 @@ export interface Counters {
   bad_samples: number;
 }
 
+/// Of a still first and last are the same.
+export interface JobFrames {
+  first: number;
+  last: number;
+  step: number;
+  total: number;
+  sent: number; // whose scenes have come
+  done: number;
+  current: number | null; // the first that is not done
+}
+
 export interface Job {
   id: number;
   name: string;
@@ -41,6 +52,7 @@ export interface Job {
   scene_hash: string;
   settings: Settings;
   parameters: Record<string, string>;
+  frames: JobFrames;
   pixels_done: number;
   pixels_total: number;
   counters: Counters;
@@ -125,6 +137,7 @@ export interface LayerChoice {
 
 export interface Watch extends LayerChoice {
   job: number;
+  frame?: number; // of an animation
 }
 
 /// How a watched layer stands; `watch` is its place in the list of watches.
@@ -133,6 +146,7 @@ export interface LayerMessage {
   watch: number;
   id: number;
   job: number;
+  frame?: number;
   layer: string;
   width: number;
   height: number;

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { ageOf } from "../app/clock";
 import { ago, count, duration, many, percent } from "../app/format";
+import { isAnimation } from "../app/frames";
 import { Icon } from "../app/Icon";
 import { openSubmit } from "../app/route";
 import { jobs, link, selectedId, selectedJob, workers } from "../app/state";
@@ -71,6 +72,12 @@ function Row({ name, children }: { name: string; children: ComponentChildren }) 
 function Progress({ job }: { job: Job }) {
   return (
     <dl>
+      {isAnimation(job) && (
+        <Row name="Frames">
+          {job.frames.done} of {job.frames.total}
+          {job.frames.sent < job.frames.total && `, ${job.frames.sent} known`}
+        </Row>
+      )}
       <Row name="Pixels">
         {count(job.pixels_done)} of {count(job.pixels_total)} ({percent(job.pixels_done, job.pixels_total)} %)
       </Row>
@@ -125,7 +132,11 @@ function Settings({ job }: { job: Job }) {
         {s.spp} per pixel, {s.sampler}
       </Row>
       <Row name="Seed">{s.seed}</Row>
-      <Row name="Frame">{s.frame}</Row>
+      <Row name="Frame">
+        {isAnimation(job)
+          ? `${job.frames.first} to ${job.frames.last}${job.frames.step > 1 ? `, each ${job.frames.step}th` : ""}`
+          : s.frame}
+      </Row>
       <Row name="Depth">
         {s.max_depth}, importance {s.min_importance}
       </Row>

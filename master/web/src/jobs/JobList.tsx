@@ -1,6 +1,7 @@
 import { computed } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { duration, percent } from "../app/format";
+import { isAnimation } from "../app/frames";
 import { openJob } from "../app/route";
 import { jobs, link, selectedId, selectedJob } from "../app/state";
 import type { Job, JobState } from "../app/types";
@@ -123,7 +124,8 @@ function JobRow({ job, chosen }: { job: Job; chosen: boolean }) {
 }
 
 function HowFar({ job }: { job: Job }) {
-  const done = `${percent(job.pixels_done, job.pixels_total)} %`;
+  const share = `${percent(job.pixels_done, job.pixels_total)} %`;
+  const done = isAnimation(job) ? `${job.frames.done}/${job.frames.total} frames, ${share}` : share;
   switch (job.state) {
     case "running":
       return <>{job.eta_seconds === null ? done : `${done}, ${duration(job.eta_seconds)} left`}</>;

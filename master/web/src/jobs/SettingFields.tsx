@@ -1,12 +1,12 @@
 import { many } from "../app/format";
 import { change, declared, faults, form } from "./draft";
 import { Field } from "./Field";
-import { defaultOf, rules, samplers, type NumberName, type SwitchName } from "./submission";
+import { defaultOf, lastFrame, rules, samplers, type NumberName, type SwitchName } from "./submission";
 
 /// How the picture is made.
 export function SettingFields() {
   const { animation } = declared.value;
-  const frames = animation ? Math.round((animation.stop - animation.start) * animation.fps) : 0;
+  const last = animation ? lastFrame(animation) : 0;
   return (
     <section aria-label="Settings">
       <h2>Settings</h2>
@@ -33,8 +33,20 @@ export function SettingFields() {
         {form.value.source !== "job" && (
           <NumberField
             name="frame"
-            hint={animation ? `0 to ${frames}, ${many(animation.fps, "frame")} a second` : ""}
+            hint={animation ? `0 to ${last}, ${many(animation.fps, "frame")} a second` : ""}
           />
+        )}
+        {form.value.source !== "job" && animation && (
+          <Field label="Frames" hint={`several in one job: 0-${last}, or 0-${last}:2`} fault={faults.value.frames}>
+            {(attributes) => (
+              <input
+                {...attributes}
+                placeholder="just the one"
+                value={form.value.frames}
+                onInput={(event) => change({ frames: event.currentTarget.value })}
+              />
+            )}
+          </Field>
         )}
       </div>
       <div class="switches" role="group" aria-label="Rays that are traced">

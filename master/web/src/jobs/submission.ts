@@ -1,6 +1,7 @@
 // The form for a new job as values: what is typed, what is wrong with it in words, what is sent.
 import { bytes, count } from "../app/format";
-import type { ImageDefaults, Job, Parameter } from "../app/types";
+import { isAnimation } from "../app/frames";
+import type { ImageDefaults, Job, JobFrames, Parameter } from "../app/types";
 
 export type Source = "farm" | "script" | "job";
 export type NumberName =
@@ -14,6 +15,7 @@ export interface Form {
   job: number | null; // whose scene it is
   parameters: Record<string, string>; // "" or missing: the default
   numbers: Record<NumberName, string>; // "": the scene's own, or the default
+  frames: string; // "0-99:2" of an animation; "": the one of the numbers
   sampler: string;
   switches: Record<SwitchName, boolean>;
   name: string;
@@ -72,17 +74,21 @@ export const emptyForm = (): Form => ({
     min_importance: "",
     priority: "",
   },
+  frames: "",
   sampler: "sobol",
   switches: { shadows: true, reflections: true, refractions: true },
   name: "",
   hold: false,
 });
 
-/// A job's settings to be changed. The scene is the job's own; of a job that ended badly the master keeps none,
-/// so it is chosen anew, first of all by the job's name.
+const textOfFrames = ({ first, last, step }: JobFrames): string =>
+  `${first}-${last}${step > 1 ? `:${step}` : ""}`;
+
+/// A job's settings to be changed. The scene is the job's own; of a job that ended badly the master keeps none, and
+/// those of an animation are made by its script: then the scene is chosen anew, first of all by the job's name.
 export function formOf(job: Job): Form {
   const s = job.settings;
-  const keepsScene = job.state !== "cancelled" && job.state !== "failed";
+  const keepsScene = job.state !== "cancelled" && job.state !== "failed" && !isAnimation(job);
   const texts = Object.fromEntries(
     numberNames.map((name) => [name, String(name === "priority" ? job.priority : s[name])]),
   ) as Record<NumberName, string>;
@@ -93,6 +99,7 @@ export function formOf(job: Job): Form {
     job: keepsScene ? job.id : null,
     parameters: { ...job.parameters },
     numbers: texts,
+    frames: isAnimation(job) ? textOfFrames(job.frames) : "",
     sampler: s.sampler,
     switches: { shadows: s.shadows, reflections: s.reflections, refractions: s.refractions },
     name: job.name,
@@ -129,6 +136,31 @@ export function parameterFault(parameter: Parameter, text: string): string | nul
   return null;
 }
 
+/// The last frame of an animation; the first is 0. As the master counts.
+export const lastFrame = ({ start, stop, fps }: NonNullable<Declared["animation"]>): number =>
+  Math.floor((stop - start) * fps + 1e-6);
+
+const mostFrames = 10_000; // of a job
+
+/// "A-B" or "A-B:step"; null when it is neither.
+export function framesOf(text: string): { first: number; last: number; step: number } | null {
+  const parts = /^\s*(\d{1,9})\s*-\s*(\d{1,9})\s*(?::\s*(\d{1,9})\s*)?$/.exec(text);
+  if (!parts) return null;
+  return { first: Number(parts[1]), last: Number(parts[2]), step: Number(parts[3] ?? 1) };
+}
+
+function framesFault(text: string, animation: Declared["animation"]): string | null {
+  const frames = framesOf(text);
+  if (!frames) return `Frames are written as 0-99, or 0-99:2 for each second one, not "${text}".`;
+  if (!animation) return "The scene has no animation: leave the frames empty.";
+  if (frames.step === 0) return "The step must be 1 or more.";
+  if (frames.last < frames.first) return "The first frame comes after the last.";
+  if (frames.last > lastFrame(animation)) return `The animation's last frame is ${lastFrame(animation)}.`;
+  if ((frames.last - frames.first) / frames.step >= mostFrames)
+    return `A job has ${count(mostFrames)} frames at most.`;
+  return null;
+}
+
 export type Faults = Partial<Record<string, string>>; // by field; a parameter p is "parameter p"
 
 /// What is wrong with the form, in words; empty when it can be sent.
@@ -157,6 +189,8 @@ export function faultsOf(form: Form, declared: Declared): Faults {
   const root = Math.floor(Math.sqrt(value("spp")));
   if (!faults.spp && ["jitter", "regular", "adapt1"].includes(form.sampler) && root * root !== value("spp"))
     faults.spp = `${form.sampler} wants a square number of samples, as ${root * root} or ${(root + 1) * (root + 1)}.`;
+  const fault = form.source === "job" || form.frames.trim() === "" ? null : framesFault(form.frames, declared.animation);
+  if (fault) faults.frames = fault;
   if (form.name.length > 200) faults.name = "The name is longer than 200 characters.";
   return faults;
 }
@@ -180,6 +214,7 @@ export function bodyOf(form: Form, declared: Declared): Record<string, unknown> 
   return {
     ...scenes[form.source],
     settings,
+    ...(form.source !== "job" && form.frames.trim() !== "" && { frames: framesOf(form.frames) }),
     ...(form.name.trim() && { name: form.name.trim() }),
     ...(form.numbers.priority.trim() && { priority: Number(form.numbers.priority) }),
     ...(form.hold && { hold: true }),

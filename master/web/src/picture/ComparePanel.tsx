@@ -8,6 +8,7 @@ import {
   compares,
   currentEntry,
   flipped,
+  framesQuery,
   metric,
   reference,
   referenceEntry,
@@ -34,19 +35,19 @@ interface Difference {
 /// Of the two pictures, as the master computes it; or why it cannot.
 const answer = signal<Difference | string | null>(null);
 
-function useDifference(a: number | undefined, b: number | undefined, both: string): void {
+function useDifference(a: number | undefined, b: number | undefined, query: string, both: string): void {
   useEffect(() => {
     answer.value = null;
     if (a === undefined || b === undefined) return;
     const stop = new AbortController();
-    getJson<Difference>(`/jobs/${a}/difference/${b}`, stop.signal).then(
+    getJson<Difference>(`/jobs/${a}/difference/${b}${query}`, stop.signal).then(
       (difference) => (answer.value = difference),
       (error: unknown) => {
         if (error instanceof ApiError) answer.value = error.message;
       },
     );
     return () => stop.abort();
-  }, [a, b, both]);
+  }, [a, b, query, both]);
 }
 
 function Figures({ figures }: { figures: [string, number][] }) {
@@ -66,7 +67,7 @@ function Figures({ figures }: { figures: [string, number][] }) {
 
 function PictureFigures() {
   const [a, b] = [selectedJob.value, reference.value];
-  useDifference(a?.id, b?.id, `${a?.state} ${b?.state}`);
+  useDifference(a?.id, b?.id, framesQuery.value, `${a?.state} ${b?.state}`);
   const told = answer.value;
   if (told === null) return <p class="quiet">…</p>;
   if (typeof told === "string") return <p class="bad">{told}</p>;

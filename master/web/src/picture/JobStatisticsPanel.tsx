@@ -1,25 +1,26 @@
 import { signal } from "@preact/signals";
 import { getJson } from "../app/api";
 import { count, duration } from "../app/format";
+import { frameQuery, shownFrame } from "../app/frames";
 import { selectedId, selectedJob, tellError } from "../app/state";
 import { plain } from "./format";
 import { hitsByName, titlesOf, type JobStatistics } from "./job_statistics";
 import { Section } from "./Section";
 
-const told = signal<{ job: number; statistics: JobStatistics } | null>(null);
+const told = signal<{ job: number; frame: number | null; statistics: JobStatistics } | null>(null);
 const asking = signal(false);
 
-/// Until the detail is there too, or another job is chosen.
-async function ask(job: number): Promise<void> {
+/// Until the detail is there too, or another frame is chosen.
+async function ask(job: number, frame: number | null): Promise<void> {
   asking.value = true;
   try {
     for (
-      let path = `/jobs/${job}/statistics`;
-      selectedId.value === job;
-      path = `/jobs/${job}/statistics?wait=1`
+      let path = `/jobs/${job}/statistics${frameQuery(frame, "?")}`;
+      selectedId.value === job && shownFrame.value === frame;
+      path = `/jobs/${job}/statistics?wait=1${frameQuery(frame, "&")}`
     ) {
       const statistics = await getJson<JobStatistics>(path);
-      told.value = { job, statistics };
+      told.value = { job, frame, statistics };
       if (statistics.detail.state !== "making") return;
     }
   } finally {
@@ -111,11 +112,11 @@ function Detail({ statistics }: { statistics: JobStatistics }) {
 export function JobStatisticsPanel() {
   const job = selectedJob.value;
   if (!job) return null;
-  const statistics = told.value?.job === job.id ? told.value.statistics : null;
+  const statistics = told.value?.job === job.id && told.value.frame === shownFrame.value ? told.value.statistics : null;
   return (
     <Section title="Statistics of the job">
       <div class="buttons">
-        <button disabled={asking.value} onClick={() => void ask(job.id).catch(tellError)}>
+        <button disabled={asking.value} onClick={() => void ask(job.id, shownFrame.value).catch(tellError)}>
           {statistics ? "Count again" : "Count"}
         </button>
       </div>

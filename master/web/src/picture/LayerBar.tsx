@@ -3,6 +3,7 @@ import { currentEntry } from "./compare";
 import { shownMap } from "./display";
 import { results, step } from "./history";
 import { chooseLayer } from "./display_actions";
+import { FrameBar } from "./FrameBar";
 import { save } from "./save";
 
 function Tab({ name, title, help }: { name: string; title: string; help: string }) {
@@ -97,6 +98,7 @@ export function LayerBar() {
         ))}
       </div>
       <div class="layer-tools">
+        <FrameBar />
         <HistorySteps />
         <SaveTools />
       </div>

@@ -1,5 +1,6 @@
 // Two results side by side, or rather one over the other: the current and the reference.
 import { computed, signal } from "@preact/signals";
+import { frameOf, frameQuery, shownFrame } from "../app/frames";
 import { jobs, layer, selectedId, tell } from "../app/state";
 import type { Job, Watch } from "../app/types";
 import { metrics, type Metric } from "./difference";
@@ -24,11 +25,26 @@ export const shiftHeld = signal(false);
 export const compares = computed(() => reference.value !== null && reference.value.id !== selectedId.value);
 export const showsReference = computed(() => compares.value && flipped.value !== shiftHeld.value);
 
+const watchOf = (job: number, frame: number | null): Watch => ({
+  job,
+  ...(frame !== null && { frame }),
+  ...layer.value,
+});
 export const currentWatch = computed<Watch | null>(() =>
-  selectedId.value === null ? null : { job: selectedId.value, ...layer.value },
+  selectedId.value === null ? null : watchOf(selectedId.value, shownFrame.value),
+);
+/// The same frame of the reference, if it has that.
+export const referenceFrame = computed<number | null>(
+  () => reference.value && frameOf(reference.value, shownFrame.value),
+);
+/// Behind the path of a difference between the two.
+export const framesQuery = computed(() =>
+  [frameQuery(shownFrame.value, "&"), referenceFrame.value === null ? "" : `&other_frame=${referenceFrame.value}`]
+    .join("")
+    .replace("&", "?"),
 );
 export const referenceWatch = computed<Watch | null>(() =>
-  compares.value && reference.value ? { job: reference.value.id, ...layer.value } : null,
+  compares.value && reference.value ? watchOf(reference.value.id, referenceFrame.value) : null,
 );
 export const currentEntry = computed<Entry | null>(() => currentWatch.value && entryOf(currentWatch.value));
 export const referenceEntry = computed<Entry | null>(

@@ -2,7 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { urlOf } from "../app/api";
 import { selectedJob, tellError } from "../app/state";
-import { comparison, compares, metric, reference } from "./compare";
+import { comparison, compares, framesQuery, metric, reference } from "./compare";
 import { LayerData } from "./layer_data";
 
 /// Of current and reference, once it is here.
@@ -13,8 +13,8 @@ export const flipIsComing = computed(
   () => compares.value && comparison.value === "difference" && metric.value === "flip" && !flipPicture.value,
 );
 
-async function load(a: number, b: number, stop: AbortSignal): Promise<LayerData> {
-  const response = await fetch(urlOf(`/jobs/${a}/difference/${b}/flip.png`), { signal: stop });
+async function load(a: number, b: number, query: string, stop: AbortSignal): Promise<LayerData> {
+  const response = await fetch(urlOf(`/jobs/${a}/difference/${b}/flip.png${query}`), { signal: stop });
   if (!response.ok) {
     const body = (await response.json().catch(() => ({}))) as { error?: string };
     throw new Error(body.error ?? `The FLIP picture: ${response.status} ${response.statusText}`);
@@ -41,7 +41,7 @@ export function startFlip(): () => void {
     flipPicture.value = null;
     if (comparison.value !== "difference" || metric.value !== "flip" || !a || !b) return;
     const stop = new AbortController();
-    load(a.id, b.id, stop.signal).then(
+    load(a.id, b.id, framesQuery.value, stop.signal).then(
       (data) => (flipPicture.value = data),
       (error: unknown) => {
         if (stop.signal.aborted) return;

@@ -1,5 +1,6 @@
 // What keys and the palette do with the picture.
 import { register, type Action } from "../app/actions";
+import { shownFrame, stepFrame } from "../app/frames";
 import { act } from "./action";
 import { nextMetric, setReference, shiftHeld, toggleComparison, toggleFlip } from "./compare";
 import { displayActions, layerActions } from "./display_actions";
@@ -19,6 +20,12 @@ const historyActions: Action[] = [
     ...act(`slot-${slot}`, slotTitle(slot), [String(slot)], () => choose(slot), hasSlot(slot)),
     family: "Show one of the last results",
   })),
+];
+
+const hasFrames = (): boolean => shownFrame.peek() !== null;
+const frameActions: Action[] = [
+  act("frame-previous", "Previous frame of the animation", [","], () => stepFrame(-1), hasFrames),
+  act("frame-next", "Next frame of the animation", ["."], () => stepFrame(1), hasFrames),
 ];
 
 const compareActions: Action[] = [
@@ -53,7 +60,7 @@ function followShift(): () => void {
 
 export function registerPicture(): () => void {
   const stops = [
-    register([...viewActions, ...displayActions, ...layerActions, ...historyActions, ...compareActions]),
+    register([...viewActions, ...displayActions, ...layerActions, ...historyActions, ...frameActions, ...compareActions]),
     followShift(),
   ];
   return () => stops.forEach((stop) => stop());

@@ -1,5 +1,6 @@
 // Files of what is shown, made by the master from its own numbers where it can.
 import { getMade } from "../app/api";
+import { chosenFrame, frameOf, frameQuery, shownFrame } from "../app/frames";
 import { layer, selectedJob, tell, tellError } from "../app/state";
 import type { Job, LayerChoice, MapEntry } from "../app/types";
 import { currentEntry } from "./compare";
@@ -30,8 +31,10 @@ export function mapPath(
   format: Format,
   shown: Shown,
   range: Range,
+  frame: number | null = null,
 ): string {
   const query = new URLSearchParams({ format });
+  if (frame !== null) query.set("frame", String(frame));
   if (map.reduces) query.set("reduce", choice.reduce);
   if (map.compat && choice.compat) query.set("compat", "1");
   if (format === "png" && palettes[map.scale].length > 0) {
@@ -60,7 +63,11 @@ async function paintedPng(data: LayerData, look: Look): Promise<Blob> {
   return canvas.convertToBlob({ type: "image/png" });
 }
 
-export const baseName = (job: Job): string => `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}`;
+/// Of what is shown of the job.
+export const baseName = (job: Job): string => {
+  const frame = frameOf(job, chosenFrame.peek());
+  return `${job.name.replace(/[^\w.-]+/g, "_")}-${job.id}${frame === null ? "" : `-frame-${frame}`}`;
+};
 
 export function download(blob: Blob, name: string): void {
   const link = document.createElement("a");
@@ -85,7 +92,7 @@ export function save(format: Format): void {
   const entry = currentEntry.peek();
   if (!job || !entry) return;
   if (!map) {
-    fetchAndSave(`/jobs/${job.id}/picture.${format}`, `${baseName(job)}.${format}`).catch(tellError);
+    fetchAndSave(`/jobs/${job.id}/picture.${format}${frameQuery(shownFrame.peek(), "?")}`, `${baseName(job)}.${format}`).catch(tellError);
     return;
   }
   const shown = shownOf(map);
@@ -96,7 +103,7 @@ export function save(format: Format): void {
     );
     return;
   }
-  const path = mapPath(job.id, layer.peek(), map, format, shown, rangeOf(entry, map, shown));
+  const path = mapPath(job.id, layer.peek(), map, format, shown, rangeOf(entry, map, shown), shownFrame.peek());
   fetchAndSave(path, `${baseName(job)}-${map.name}.${format}`).catch(tellError);
 }
 

@@ -23,7 +23,7 @@ const byId = new Map<number, Entry>(); // of this connection
 let wanted: Entry[] = [];
 let step = 0;
 
-const keyOf = (w: Watch): string => `${w.job} ${w.layer} ${w.reduce} ${w.compat}`;
+const keyOf = (w: Watch): string => `${w.job} ${w.frame ?? "-"} ${w.layer} ${w.reduce} ${w.compat}`;
 
 export function entryOf(w: Watch): Entry {
   const key = keyOf(w);
@@ -87,7 +87,8 @@ function forgetIds(entry: Entry): void {
 /// The list of watches may have changed since the master numbered it.
 function entryFor(message: LayerMessage): Entry | undefined {
   const list = watches();
-  const fits = (w: Watch | undefined): w is Watch => w?.job === message.job && w.layer === message.layer;
+  const fits = (w: Watch | undefined): w is Watch =>
+    w?.job === message.job && w.frame === message.frame && w.layer === message.layer;
   const named = list[message.watch];
   const found = fits(named) ? named : list.find(fits);
   return found && entryOf(found);

@@ -1,6 +1,7 @@
 // The angle at which a pixel's surface is seen: between its normal and the way back to the camera.
 import { effect, signal } from "@preact/signals";
 import { getJson } from "../app/api";
+import { frameQuery, shownFrame } from "../app/frames";
 import { layer, selectedId } from "../app/state";
 import type { Vec3 } from "../app/types";
 import type { Point, Size } from "./view";
@@ -70,7 +71,7 @@ export function startCamera(): () => void {
     camera.value = null;
     if (id === null || !layer.value.layer.startsWith("normal")) return;
     const stop = new AbortController();
-    getJson<{ camera: Camera }>(`/jobs/${id}/scene`, stop.signal).then(
+    getJson<{ camera: Camera }>(`/jobs/${id}/scene${frameQuery(shownFrame.value, "?")}`, stop.signal).then(
       (scene) => (camera.value = scene.camera.kind === "perspective" ? scene.camera : null),
       () => undefined, // without it there is no angle, and the normal is all there is to tell
     );

@@ -1,6 +1,7 @@
 // The job's point cloud, fetched when it is first shown.
 import { effect, signal } from "@preact/signals";
 import { getMade } from "../app/api";
+import { frameQuery, shownFrame } from "../app/frames";
 import { selectedId } from "../app/state";
 import { shown } from "./options";
 import { parsePly, type Cloud } from "./ply";
@@ -33,13 +34,13 @@ async function bodyOf(
   return new Blob(chunks).arrayBuffer();
 }
 
-async function load(job: number, signal: AbortSignal): Promise<void> {
+async function load(job: number, frame: number | null, signal: AbortSignal): Promise<void> {
   const tell = (state: CloudState) => {
     if (!signal.aborted) cloudState.value = state;
   };
   try {
     tell({ state: "making", progress: 0 });
-    const path = `/jobs/${job}/cloud.ply?points=${mostPoints}&form=binary`;
+    const path = `/jobs/${job}/cloud.ply?points=${mostPoints}&form=binary${frameQuery(frame, "&")}`;
     const response = await getMade(path, (progress) => tell({ state: "making", progress }), signal);
     const body = await bodyOf(response, (bytes, total) => tell({ state: "loading", bytes, total }));
     tell({ state: "ready", cloud: parsePly(body) });
@@ -51,7 +52,7 @@ async function load(job: number, signal: AbortSignal): Promise<void> {
 /// Of the selected job while it is shown, until the result is called. Hiding keeps it; another job's takes its place.
 export function followCloud(): () => void {
   let controller: AbortController | null = null;
-  let loaded: number | null = null;
+  let loaded: string | null = null; // job and frame
   const forget = () => {
     controller?.abort();
     controller = loaded = null;
@@ -59,12 +60,14 @@ export function followCloud(): () => void {
   };
   const unfollow = effect(() => {
     const job = selectedId.value;
+    const frame = shownFrame.value;
+    const which = `${job} ${frame}`;
     const wanted = shown.cloud.value;
-    if (loaded !== null && (job !== loaded || (!wanted && cloudState.peek().state !== "ready"))) forget();
-    if (!wanted || job === null || loaded === job) return;
+    if (loaded !== null && (which !== loaded || (!wanted && cloudState.peek().state !== "ready"))) forget();
+    if (!wanted || job === null || loaded === which) return;
     controller = new AbortController();
-    loaded = job;
-    void load(job, controller.signal);
+    loaded = which;
+    void load(job, frame, controller.signal);
   });
   return () => {
     unfollow();

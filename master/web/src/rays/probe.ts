@@ -2,6 +2,7 @@
 // pointer passes meanwhile only the newest is asked for.
 import { computed, effect, signal } from "@preact/signals";
 import { getJson } from "../app/api";
+import { frameQuery, shownFrame } from "../app/frames";
 import { link, probed, selectedId, type Pixel } from "../app/state";
 import { newestWins } from "./newest";
 import type { PixelTrace } from "./trace";
@@ -12,6 +13,7 @@ export const sampleChoice = signal<SampleChoice>(0);
 
 export interface Question {
   job: number;
+  frame: number | null; // of an animation
   pixel: Pixel;
   sample: SampleChoice;
 }
@@ -31,11 +33,11 @@ export const probeError = signal<string | null>(null);
 const question = computed<Question | null>(() =>
   selectedId.value === null || !probed.value
     ? null
-    : { job: selectedId.value, pixel: probed.value, sample: sampleChoice.value },
+    : { job: selectedId.value, frame: shownFrame.value, pixel: probed.value, sample: sampleChoice.value },
 );
 
-const pathOf = ({ job, pixel, sample }: Question): string =>
-  `/jobs/${job}/trace?x=${pixel.x}&y=${pixel.y}&sample=${sample}`;
+const pathOf = ({ job, frame, pixel, sample }: Question): string =>
+  `/jobs/${job}/trace?x=${pixel.x}&y=${pixel.y}&sample=${sample}${frameQuery(frame, "&")}`;
 
 async function fetchAnswer(asked: Question, signal: AbortSignal): Promise<Answer> {
   const start = performance.now();

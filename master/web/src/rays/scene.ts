@@ -1,6 +1,7 @@
 // The selected job's scene as the master describes it (GET /jobs/ID/scene), for the 3D view.
 import { computed, effect, signal } from "@preact/signals";
 import { getJson } from "../app/api";
+import { frameQuery, shownFrame } from "../app/frames";
 import { link, selectedId } from "../app/state";
 import type { Vec3 } from "../app/types";
 import { answer } from "./probe";
@@ -65,17 +66,18 @@ export const everything = computed<Box>(() =>
 /// Of the selected job, until the result is called. What could not be had is asked for again when the connection to
 /// the master is found again.
 export function followScene(): () => void {
-  let got: number | null = null;
+  let got: string | null = null; // its path
   return effect(() => {
     const job = selectedId.value;
-    if (link.value === "lost" || (job !== null && job === got)) return;
+    const path = `/jobs/${job}/scene${frameQuery(shownFrame.value, "?")}`;
+    if (link.value === "lost" || path === got) return;
     scene.value = sceneError.value = got = null;
     if (job === null) return;
     const controller = new AbortController();
-    getJson<SceneView>(`/jobs/${job}/scene`, controller.signal).then(
+    getJson<SceneView>(path, controller.signal).then(
       (view) => {
         scene.value = view;
-        got = job;
+        got = path;
       },
       (error: unknown) => {
         if (!controller.signal.aborted)
