@@ -1,6 +1,5 @@
 #include "master/farm.h"
 
-#include <array>
 #include <utility>
 
 #include "common/render/settings.h"
@@ -8,10 +7,6 @@
 
 namespace rayfarm {
 namespace {
-
-constexpr std::array<std::string_view, 6> job_state_names{"waiting", "running",   "paused",
-                                                          "done",    "cancelled", "failed"};
-constexpr std::array<std::string_view, 3> worker_state_names{"idle", "busy", "drained"};
 
 /// The job that has the key of this submission already. Throws KeyTaken if it is not what is wanted.
 JobId same_job(const Job& job, const JobSpec& wanted) {
@@ -28,9 +23,6 @@ std::string words_for_banned(std::string_view name) {
 }
 
 }  // namespace
-
-std::string_view name_of(JobState state) { return job_state_names.at(static_cast<std::size_t>(state)); }
-std::string_view name_of(WorkerState state) { return worker_state_names.at(static_cast<std::size_t>(state)); }
 
 Farm::Farm(FarmLimits limits) : state_(std::make_unique<State>()) { state_->limits = limits; }
 Farm::~Farm() = default;
@@ -222,6 +214,15 @@ bool Farm::cancel(JobId id, FarmTime now) {
   return true;
 }
 
+bool Farm::fail(JobId id, std::string why, FarmTime now) {
+  Job* job = state_->living_job(id);
+  if (job == nullptr) return false;
+  state_->revoke_everywhere(id);
+  state_->fail(*job, std::move(why), now);
+  state_->fill_all(now);
+  return true;
+}
+
 bool Farm::set_priority(JobId id, int priority, FarmTime) {
   Job* job = state_->living_job(id);
   if (job == nullptr) return false;
@@ -231,80 +232,6 @@ bool Farm::set_priority(JobId id, int priority, FarmTime) {
   state_->update_queue(*job);
   return true;
 }
-
-// Views. ----------------------------------------------------------------------------------
-
-std::vector<JobView> Farm::jobs(FarmTime now) const {
-  std::vector<JobView> views;
-  views.reserve(state_->jobs.size());
-  for (const auto& [id, job] : state_->jobs) views.push_back(view_of(job, now));
-  return views;
-}
-
-std::optional<JobView> Farm::job(JobId id, FarmTime now) const {
-  const auto job = state_->jobs.find(id);
-  if (job == state_->jobs.end()) return std::nullopt;
-  return view_of(job->second, now);
-}
-
-std::vector<WorkerView> Farm::workers() const {
-  std::vector<WorkerView> views;
-  views.reserve(state_->workers.size());
-  for (const auto& [id, worker] : state_->workers) views.push_back(view_of(worker));
-  return views;
-}
-
-std::vector<std::string> Farm::banned() const {
-  return {state_->banned_names.begin(), state_->banned_names.end()};
-}
-
-std::string Farm::name_of_worker(WorkerId id) const {
-  const auto worker = state_->workers.find(id);
-  return worker == state_->workers.end() ? std::string() : worker->second.info.name;
-}
-
-std::vector<FrameView> Farm::frames(JobId id, FarmTime now) const {
-  const auto job = state_->jobs.find(id);
-  std::vector<FrameView> views;
-  if (job == state_->jobs.end()) return views;
-  for (std::uint32_t place = 0; place < job->second.spec.frames->count(); ++place)
-    views.push_back(view_of(job->second, place, now));
-  return views;
-}
-
-std::optional<FrameView> Farm::frame(JobId id, std::optional<std::uint32_t> frame, FarmTime now) const {
-  const auto job = state_->jobs.find(id);
-  if (job == state_->jobs.end()) return std::nullopt;
-  const FrameRange& range = *job->second.spec.frames;
-  const auto place = range.index_of(frame.value_or(range.first));
-  if (!place) return std::nullopt;
-  return view_of(job->second, *place, now);
-}
-
-std::shared_ptr<const Film> Farm::film(JobId id, std::optional<std::uint32_t> number) const {
-  const JobFrame* frame = state_->frame(id, number);
-  return frame && frame->canvas ? frame->canvas->film : nullptr;
-}
-
-std::optional<Deliveries> Farm::deliveries(JobId id, std::optional<std::uint32_t> number) const {
-  const JobFrame* frame = state_->frame(id, number);
-  if (!frame || !frame->canvas) return std::nullopt;
-  const Canvas& canvas = *frame->canvas;
-  Deliveries all;
-  all.tiles.reserve(canvas.deliveries.size());
-  for (const auto& [by, taken] : canvas.deliveries)
-    all.tiles.push_back({by, taken, canvas.film->passes_of(static_cast<std::uint32_t>(all.tiles.size()))});
-  for (const NameId name : canvas.deliverers)
-    all.names.push_back(state_->names[static_cast<std::size_t>(name)]);
-  return all;
-}
-
-SharedBytes Farm::scene(JobId id, std::optional<std::uint32_t> number) const {
-  const JobFrame* frame = state_->frame(id, number);
-  return frame ? frame->scene_bytes : nullptr;
-}
-
-std::uint64_t Farm::revision() const { return state_->revision; }
 
 std::vector<FarmEvent> Farm::take_events() { return std::exchange(state_->events, {}); }
 

@@ -189,6 +189,7 @@ class Farm {
   bool pause(JobId job, FarmTime now);
   bool resume(JobId job, FarmTime now);
   bool cancel(JobId job, FarmTime now);
+  bool fail(JobId job, std::string why, FarmTime now);  // what it still needs will not come
   bool set_priority(JobId job, int priority, FarmTime now);
   // Of workers by their unique name. Draining revokes what it holds at once and gives it nothing more. False:
   // no such worker; undrain also knows drained workers that are away.

@@ -79,6 +79,7 @@ void serve(const Arguments& arguments) {
   FarmDoor door([&](std::function<void(Farm&, FarmTime)> question) {
     asio::post(io, [&farm, question = std::move(question)] { farm.apply(question); });
   });
+  FrameFeeder feeder(door);
   Diagnostics diagnostics(std::max(1u, std::thread::hardware_concurrency()));
   const MasterDoor master{
       [&](const std::string& target) { sessions.dial(parse_dial_target(target)); },
@@ -87,9 +88,12 @@ void serve(const Arguments& arguments) {
   };
   const AppFiles app;
   const SceneLibrary scenes;
-  const HttpServer http(
-      {arguments.http, arguments.insecure},
-      {.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes});
+  const HttpServer http({arguments.http, arguments.insecure}, {.farm = door,
+                                                               .feeder = feeder,
+                                                               .diagnostics = diagnostics,
+                                                               .master = master,
+                                                               .app = app,
+                                                               .scenes = scenes});
   std::optional<LocalThreads> local;
   if (arguments.threads > 0) local.emplace(io, farm, arguments.threads);
   dial_all(sessions, arguments.dial);

@@ -46,7 +46,8 @@ ExitCode fetch_cloud(const CloudArguments& a) {
                       {"form", a.ascii     ? "ascii"
                                : a.compact ? "compact"
                                            : ""},
-                      {"visible", a.visible_only ? "1" : ""}},
+                      {"visible", a.visible_only ? "1" : ""},
+                      {"frame", frame_text(a.picture.frame)}},
                      "collecting", a.output);
   return ExitCode::done;
 }

@@ -34,6 +34,20 @@ std::string size_text(const json& settings) {
 
 std::string progress_of(const json& job) { return percent(job.at("pixels_done"), job.at("pixels_total")); }
 
+/// 12/500; of a still nothing.
+std::string frames_done(const json& job) {
+  const json& frames = job.at("frames");
+  return frames.at("total") == 1 ? "" : number_in(frames, "done") + "/" + number_in(frames, "total");
+}
+
+/// 37/500 while scenes are still to come from whoever submitted it.
+std::string frames_known(const json& job) {
+  const json& frames = job.at("frames");
+  return frames.at("sent") == frames.at("total")
+             ? ""
+             : number_in(frames, "sent") + "/" + number_in(frames, "total");
+}
+
 ExitCode list_jobs(const JobArguments& a) {
   const json answer = get_json("/api/v1/jobs");
   if (a.json) {
@@ -41,11 +55,11 @@ ExitCode list_jobs(const JobArguments& a) {
     return ExitCode::done;
   }
   std::vector<std::vector<std::string>> rows{
-      {"ID", "NAME", "STATE", "DONE", "ETA", "PRIORITY", "SIZE", "SPP", "OUTPUT"}};
+      {"ID", "NAME", "STATE", "DONE", "FRAMES", "ETA", "PRIORITY", "SIZE", "SPP", "OUTPUT"}};
   for (const json& job : answer.at("jobs")) {
     const json& settings = job.at("settings");
     rows.push_back({number_in(job, "id"), text_in(job, "name"), text_in(job, "state"), progress_of(job),
-                    eta_text(job), number_in(job, "priority"), size_text(settings),
+                    frames_done(job), eta_text(job), number_in(job, "priority"), size_text(settings),
                     number_in(settings, "spp"), text_in(job, "output")});
   }
   std::fputs(table(rows).c_str(), stdout);
@@ -72,7 +86,9 @@ ExitCode show_job(const JobArguments& a) {
       {"samples per pixel", number_in(settings, "spp")},
       {"sampler", text_in(settings, "sampler")},
       {"seed", number_in(settings, "seed")},
-      {"frame", number_in(settings, "frame")},
+      {"frames", frames_text(job).substr(frames_text(job).find(' ') + 1)},
+      {"frames done", frames_done(job)},
+      {"frames known", frames_known(job)},
       {"rays", short_count(counters.at("rays").get<double>())},
       {"bad samples", number_in(counters, "bad_samples")},
       {"lost rays", number_in(counters, "lost")},

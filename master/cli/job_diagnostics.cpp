@@ -66,8 +66,9 @@ Rows time_rows(const json& seconds) {
 void add_job_option(CLI::App& command, std::optional<JobNumber>& job) {
   CLI::Option* scene = command.get_option("SCENE");
   scene->required(false);
-  const std::vector<CLI::Option*> others = command.get_options(
-      [](const CLI::Option* option) { return !option->get_required() && option->get_name() != "--help"; });
+  const std::vector<CLI::Option*> others = command.get_options([](const CLI::Option* option) {
+    return !option->get_required() && option->get_name() != "--help" && option->get_name() != "--frame";
+  });
   CLI::Option* option = command.add_option("--job", job, "A job of the farm, instead of a scene")
                             ->type_name("ID")
                             ->check(whole_number());
@@ -100,8 +101,13 @@ void write_made_for_job(JobNumber job, const std::string& what, const Query& que
   write_atomically(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
-void print_job_statistics(JobNumber job, bool as_json) {
-  const json statistics = json::parse(made_for_job(job, "statistics", {}, "counting"));
+std::string frame_text(const std::optional<std::uint32_t>& frame) {
+  return frame ? std::to_string(*frame) : "";
+}
+
+void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& frame, bool as_json) {
+  const json statistics =
+      json::parse(made_for_job(job, "statistics", {{"frame", frame_text(frame)}}, "counting"));
   if (as_json) return print_json(statistics);
   const json& detail = statistics["detail"];
   const std::string hits = detail["state"] == "done" ? table(hit_rows(detail["hits"]))

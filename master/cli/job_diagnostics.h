@@ -10,8 +10,8 @@
 
 namespace rayfarm {
 
-/// --job ID, instead of SCENE and what else the command does not need of all that it has so far. One of the two
-/// is needed.
+/// --job ID, instead of SCENE and what else the command does not need of all that it has so far, but for --frame. One of
+/// the two is needed.
 void add_job_option(CLI::App& command, std::optional<JobNumber>& job);
 
 /// The shortest that reads back as the same number.
@@ -26,7 +26,10 @@ std::string made_for_job(JobNumber job, const std::string& what, const Query& qu
 void write_made_for_job(JobNumber job, const std::string& what, const Query& query, const char* doing,
                         const std::string& file);
 
-void print_job_statistics(JobNumber job, bool as_json);
+/// In a request: empty for the first frame, or for all.
+std::string frame_text(const std::optional<std::uint32_t>& frame);
+
+void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& frame, bool as_json);
 /// As lines, or as JSON.
 void print_job_trace(JobNumber job, const Query& query, bool as_json);
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/cli/text.h"
+#include "master/frame_range.h"
 
 namespace rayfarm {
 namespace {
@@ -24,9 +25,18 @@ std::string eta_text(const nlohmann::json& job) {
   return eta ? clock_text(*eta) : "";
 }
 
+std::string frames_text(const nlohmann::json& job) {
+  const nlohmann::json& frames = job.at("frames");
+  const FrameRange range{frames.at("first"), frames.at("last"), frames.at("step")};
+  return (range.count() == 1 ? "frame " : "frames ") + text_of(range);
+}
+
 void show(ProgressLine& line, const nlohmann::json& job) {
-  const std::string details =
+  const nlohmann::json& frames = job.at("frames");
+  std::string details =
       "job " + std::to_string(job.at("id").get<std::uint64_t>()) + " " + job.at("state").get<std::string>();
+  if (frames.at("total") > 1)
+    details += ", " + frames.at("done").dump() + "/" + frames.at("total").dump() + " frames";
   line.show(fraction_done(job), details, eta_of(job));
 }
 

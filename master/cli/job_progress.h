@@ -9,5 +9,7 @@ namespace rayfarm {
 void show(ProgressLine& line, const nlohmann::json& job);
 double fraction_done(const nlohmann::json& job);
 std::string eta_text(const nlohmann::json& job);  // empty: not known
+/// "frames 0-499:5", "frame 12"
+std::string frames_text(const nlohmann::json& job);
 
 }  // namespace rayfarm

@@ -84,7 +84,8 @@ ExitCode fetch_map(const MapArguments& a) {
                       {"scale", a.palette},
                       {"low", range ? number_text(range->low) : ""},
                       {"high", range ? number_text(range->high) : ""},
-                      {"legend", a.legend ? "1" : ""}},
+                      {"legend", a.legend ? "1" : ""},
+                      {"frame", frame_text(a.picture.frame)}},
                      "mapping", a.output);
   return ExitCode::done;
 }

@@ -107,6 +107,18 @@ json post_json(const std::string& target, const json& body) {
   return parsed(asked({"POST", "", target, body.dump()}));
 }
 
+json post_json_patiently(const std::string& target, const json& body,
+                         const std::function<void()>& while_busy) {
+  for (;;) {
+    try {
+      return post_json(target, body);
+    } catch (const MasterBusy&) {
+      std::this_thread::sleep_for(busy_pause);
+      while_busy();
+    }
+  }
+}
+
 std::string job_target(JobNumber id) { return "/api/v1/jobs/" + std::to_string(id); }
 
 bool has_ended(const json& job) {

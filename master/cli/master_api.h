@@ -15,6 +15,9 @@ std::string get_bytes(const std::string& target);
 /// The bytes at the target, when they have been made; how far they are (0 to 1) is told meanwhile.
 std::string get_made(const std::string& target, const std::function<void(double share)>& progress);
 nlohmann::json post_json(const std::string& target, const nlohmann::json& body);
+/// The same, again and again while the master is too busy or too full; while_busy() is called between.
+nlohmann::json post_json_patiently(const std::string& target, const nlohmann::json& body,
+                                   const std::function<void()>& while_busy);
 
 using JobNumber = std::uint64_t;
 std::string job_target(JobNumber id);

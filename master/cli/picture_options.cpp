@@ -4,7 +4,6 @@
 
 #include "common/net/codec.h"
 #include "master/cli/whole_number.h"
-#include "master/script/script.h"
 
 namespace rayfarm {
 namespace {
@@ -54,8 +53,15 @@ void add_sample_options(CLI::App& command, PictureOptions& o) {
 
 void add_picture_options(CLI::App& command, PictureOptions& o) {
   add_sample_options(command, o);
-  command.add_option("-o,--output", o.output, "Picture to write, .exr (linear float) or .png (8 bit)")
+  command
+      .add_option("-o,--output", o.output,
+                  "Picture to write, .exr (linear float) or .png (8 bit); #### is the frame's number")
       ->required();
+  command
+      .add_option(
+          "--frames", o.frames,
+          "Frames of an animation, A-B or A-B:step; -o then says where their numbers go, name.####.png")
+      ->excludes("--frame");
   command.add_flag("--srgb", o.srgb, "PNG with the sRGB curve instead of gamma 2.2");
 }
 
@@ -83,15 +89,26 @@ RenderSettings settings_of(const PictureOptions& o, const ImageDefaults& scene) 
   return s;
 }
 
-PreparedScene prepare(const PictureOptions& options) {
-  settings_of(options, {});  // a mistake in the options is told before the script runs
+ScriptRequest script_of(const PictureOptions& options) {
+  return read_script(options.scene_file, params_of(options.params));
+}
+
+PreparedScene prepared(Scene scene, const RenderSettings& settings) {
   PreparedScene prepared;
-  prepared.scene =
-      evaluate_file(options.scene_file, params_of(options.params), options.frame.value_or(0)).scene;
-  prepared.settings = settings_of(options, prepared.scene.image);
+  prepared.scene = std::move(scene);
+  prepared.settings = settings;
   prepared.bytes = encode_scene(prepared.scene);
   prepared.hash = sha256_hex(prepared.bytes);
   return prepared;
+}
+
+PreparedScene prepare(const PictureOptions& options) {
+  settings_of(options, {});  // a mistake in the options is told before the script runs
+  ScriptRequest script = script_of(options);
+  script.frame = options.frame.value_or(0);
+  Scene scene = evaluate(script).scene;
+  const RenderSettings settings = settings_of(options, scene.image);
+  return prepared(std::move(scene), settings);
 }
 
 }  // namespace rayfarm

@@ -8,6 +8,7 @@
 
 #include "common/render/settings.h"
 #include "master/files/image_file.h"
+#include "master/script/script.h"
 
 namespace rayfarm {
 
@@ -18,6 +19,7 @@ struct PictureOptions {
   std::vector<std::string> params;  // key=value
   std::optional<std::string> size;  // WIDTHxHEIGHT
   std::optional<std::uint32_t> spp, max_depth, frame;
+  std::optional<std::string> frames;  // A-B or A-B:step
   std::optional<std::string> sampler;
   std::optional<std::uint64_t> seed;
   std::optional<double> min_importance;
@@ -28,7 +30,7 @@ struct PictureOptions {
 
 /// Scene, settings: what decides the samples.
 void add_sample_options(CLI::App& command, PictureOptions& options);
-/// The same and the picture to write.
+/// The same and the picture to write, or those of several frames.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
 /// The command line stands above what the scene asks for, that above the built-in defaults. Checked; throws
@@ -43,6 +45,9 @@ struct PreparedScene {
   RenderSettings settings;
 };
 
+/// The script and its parameters. Throws SceneError or SettingsError.
+ScriptRequest script_of(const PictureOptions& options);
+PreparedScene prepared(Scene scene, const RenderSettings& settings);
 /// Evaluates the script. Throws SceneError or SettingsError.
 PreparedScene prepare(const PictureOptions& options);
 

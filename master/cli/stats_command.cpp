@@ -110,7 +110,7 @@ void print(const Report& r) {
 
 ExitCode stats(const StatsArguments& a) {
   if (a.job) {
-    print_job_statistics(*a.job, a.json);
+    print_job_statistics(*a.job, a.picture.frame, a.json);
     return ExitCode::done;
   }
   note_interrupts();

@@ -52,7 +52,10 @@ void check_svg(const std::string& file) {
 
 ExitCode trace_job(const TraceArguments& a) {
   const Pixel pixel = pixel_of(a.pixel);
-  const Query query{{"x", std::to_string(pixel.x)}, {"y", std::to_string(pixel.y)}, {"sample", a.sample}};
+  const Query query{{"x", std::to_string(pixel.x)},
+                    {"y", std::to_string(pixel.y)},
+                    {"sample", a.sample},
+                    {"frame", frame_text(a.picture.frame)}};
   if (!a.svg_file.empty()) {
     Query drawn = query;
     drawn.emplace_back("format", "svg");

@@ -28,8 +28,8 @@ json json_of_hits(const Statistics& statistics, const std::vector<std::string>& 
 }
 
 /// What must be traced again to be known.
-json statistics_detail(const Call& call, JobId id) try {
-  const Subject subject = job_subject(call.doors.farm, id).subject;
+json statistics_detail(const Call& call, JobId id, std::optional<std::uint32_t> frame) try {
+  const Subject subject = job_subject(call.doors.farm, id, frame).subject;
   const Made<Statistics> made = call.doors.diagnostics.statistics(subject);
   if (made.standing.state == LayerProgress::failed)
     return {{"state", "unavailable"}, {"message", made.standing.message}};
@@ -43,24 +43,47 @@ json statistics_detail(const Call& call, JobId id) try {
   return {{"state", "unavailable"}, {"message", error.what()}};
 }
 
+/// Exact, of what is there.
+struct RayFacts {
+  bool is_one_frame = true;
+  std::uint64_t pixels = 0;
+  RayCounters counters;
+  FarmTime waited{}, elapsed{}, thread_time{};
+};
+
+/// Of a frame, or of all of the job's when none is named.
+RayFacts ray_facts(const FarmDoor& farm, JobId id, std::optional<std::uint32_t> number) {
+  return farm.ask([=](Farm& f, FarmTime now) {
+    const FrameView frame = frame_view(f, id, number, now);
+    if (number)
+      return RayFacts{true,         frame.pixels_done, frame.counters,
+                      frame.waited, frame.elapsed,     frame.thread_time};
+    const JobView job = *f.job(id, now);
+    return RayFacts{job.frames.count() == 1, job.pixels_done, job.counters, job.waited, job.elapsed,
+                    job.thread_time};
+  });
+}
+
 ApiResponse show_statistics(const Call& call) {
   const JobId id = job_id(call);
-  const auto job = call.doors.farm.ask([id](Farm& farm, FarmTime now) { return farm.job(id, now); });
-  if (!job) throw no_such_job(id);
+  const std::optional<std::uint32_t> frame = whole_in(call, "frame");
+  const RayFacts facts = ray_facts(call.doors.farm, id, frame);
   const auto seconds = [](FarmTime time) { return std::chrono::duration<double>(time).count(); };
-  const auto pixels = static_cast<double>(std::max<std::uint64_t>(job->pixels_done, 1));
-  json counters = to_json(job->counters), mean;
+  const auto pixels = static_cast<double>(std::max<std::uint64_t>(facts.pixels, 1));
+  json counters = to_json(facts.counters), mean;
   for (const auto& [name, total] : counters.items()) mean[name] = total.get<double>() / pixels;
-  json detail = statistics_detail(call, id);
+  json detail = facts.is_one_frame
+                    ? statistics_detail(call, id, frame)
+                    : json{{"state", "unavailable"}, {"message", "hits are told frame by frame"}};
   const bool is_complete = detail["state"] != "making";
   ApiResponse response = shown({{"counters", counters},
                                 {"mean_per_pixel", mean},
-                                {"pixels", job->pixels_done},
-                                {"samples_per_pixel", static_cast<double>(job->counters.primary) / pixels},
+                                {"pixels", facts.pixels},
+                                {"samples_per_pixel", static_cast<double>(facts.counters.primary) / pixels},
                                 {"seconds",
-                                 {{"waiting", seconds(job->waited)},
-                                  {"rendering", seconds(job->elapsed)},
-                                  {"threads", seconds(job->thread_time)}}},
+                                 {{"waiting", seconds(facts.waited)},
+                                  {"rendering", seconds(facts.elapsed)},
+                                  {"threads", seconds(facts.thread_time)}}},
                                 {"detail", std::move(detail)}});
   if (!is_complete) response.status = 202;
   return response;
@@ -69,7 +92,7 @@ ApiResponse show_statistics(const Call& call) {
 // The scene. -----------------------------------------------------------------------------------------------
 
 ApiResponse show_scene(const Call& call) {
-  const Subject subject = job_subject(call.doors.farm, job_id(call)).subject;
+  const Subject subject = job_subject(call.doors.farm, job_id(call), whole_in(call, "frame")).subject;
   return shown(scene_view(*call.doors.diagnostics.scene(subject)));
 }
 
@@ -97,7 +120,8 @@ ApiResponse show_trace(const Call& call) {
                                   if (text == "svg") return Format::svg;
                                   return text == "text" ? std::optional(Format::text) : std::nullopt;
                                 });
-  const PixelTrace trace = trace_of(call, job_subject(call.doors.farm, job_id(call)).subject);
+  const PixelTrace trace =
+      trace_of(call, job_subject(call.doors.farm, job_id(call), whole_in(call, "frame")).subject);
   if (format == Format::svg) return {200, "image/svg+xml", svg_of(trace)};
   if (format == Format::text) return {200, "text/plain; charset=utf-8", text_of(trace)};
   return shown(to_json(trace));
@@ -120,7 +144,7 @@ CloudRequest cloud_request(const Call& call) {
 
 ApiResponse show_cloud(const Call& call) {
   const CloudRequest request = cloud_request(call);
-  const Subject subject = job_subject(call.doors.farm, job_id(call)).subject;
+  const Subject subject = job_subject(call.doors.farm, job_id(call), whole_in(call, "frame")).subject;
   const Made<PlyFile> made = call.doors.diagnostics.cloud(subject, request);
   if (made.standing.state == LayerProgress::failed) throw ApiError(500, made.standing.message);
   if (!made.thing) return in_the_making(made.standing.share_done);

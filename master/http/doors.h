@@ -8,6 +8,7 @@
 #include "master/event_log.h"
 #include "master/http/app_files.h"
 #include "master/http/farm_door.h"
+#include "master/http/frame_feeder.h"
 #include "master/http/scene_library.h"
 
 namespace rayfarm {
@@ -26,6 +27,7 @@ struct MasterDoor {
 /// All of it outlives the server.
 struct Doors {
   FarmDoor& farm;
+  FrameFeeder& feeder;
   Diagnostics& diagnostics;
   const MasterDoor& master;
   const AppFiles& app;

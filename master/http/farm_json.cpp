@@ -23,6 +23,14 @@ json to_json(const JobView& job, FarmTime now) {
           {"scene_hash", job.scene_hash},
           {"settings", to_json(job.settings)},
           {"parameters", job.parameters},
+          {"frames",
+           {{"first", job.frames.first},
+            {"last", job.frames.last},
+            {"step", job.frames.step},
+            {"total", job.frames.count()},
+            {"sent", job.frames_sent},
+            {"done", job.frames_done},
+            {"current", job.current_frame ? json(*job.current_frame) : json()}}},
           {"pixels_done", job.pixels_done},
           {"pixels_total", job.pixels_total},
           {"counters", to_json(job.counters)},
@@ -30,6 +38,18 @@ json to_json(const JobView& job, FarmTime now) {
           {"elapsed_seconds", seconds_of(job.elapsed)},
           {"eta_seconds", job.eta ? json(seconds_of(*job.eta)) : json()},
           {"tiles_given_back", job.tiles_given_back}};
+}
+
+json to_json(const FrameView& frame) {
+  return {{"frame", frame.frame},
+          {"state", name_of(frame.state)},
+          {"is_kept", frame.is_kept},
+          {"scene_hash", frame.scene_hash},
+          {"pixels_done", frame.pixels_done},
+          {"pixels_total", frame.pixels_total},
+          {"counters", to_json(frame.counters)},
+          {"elapsed_seconds", seconds_of(frame.elapsed)},
+          {"thread_seconds", seconds_of(frame.thread_time)}};
 }
 
 json to_json(const WorkerView& worker, FarmTime now) {

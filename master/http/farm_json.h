@@ -8,6 +8,7 @@ namespace rayfarm {
 
 /// Times are seconds, counted from `now` or between two events; what is not known yet is null.
 nlohmann::json to_json(const JobView& job, FarmTime now);
+nlohmann::json to_json(const FrameView& frame);
 nlohmann::json to_json(const WorkerView& worker, FarmTime now);
 
 }  // namespace rayfarm

@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "master/http/api_error.h"
+#include "master/http/job_subject.h"
 
 namespace rayfarm {
 namespace {
 
 constexpr std::uint32_t tiles_at_once = 256;  // 12 MB: some milliseconds
 
-std::shared_ptr<const Film> film_now(const Farm& farm, JobId id, FarmTime now) {
-  std::shared_ptr<const Film> film = film_so_far(farm, id, now);
-  if (!film) throw ApiError(409, "nothing of " + text_of(id) + " is rendered yet");
+using Number = std::optional<std::uint32_t>;
+
+std::shared_ptr<const Film> film_now(const Farm& farm, JobId id, Number frame, FarmTime now) {
+  std::shared_ptr<const Film> film = film_so_far(farm, id, frame, now);
+  if (!film) throw ApiError(409, "nothing of " + text_of(id, frame) + " is rendered yet");
   return film;
 }
 
@@ -48,22 +51,23 @@ const float* filled_pixel(const Film& film, std::uint32_t x, std::uint32_t y) {
 
 }  // namespace
 
-std::shared_ptr<const Film> film_so_far(const Farm& farm, JobId id, FarmTime now) {
-  const std::optional<JobView> job = farm.job(id, now);
-  if (!job) throw no_such_job(id);
-  std::shared_ptr<const Film> film = farm.film(id);
-  if (!film && job->pixels_done > 0)
-    throw ApiError(410, "the picture of " + text_of(id) + " is no longer kept; submit it again");
+std::shared_ptr<const Film> film_so_far(const Farm& farm, JobId id, std::optional<std::uint32_t> frame,
+                                        FarmTime now) {
+  const FrameView view = frame_view(farm, id, frame, now);
+  std::shared_ptr<const Film> film = farm.film(id, frame);
+  if (!film && view.pixels_done > 0)
+    throw ApiError(410, "the picture of " + text_of(id, frame) + " is no longer kept; submit it again");
   return film;
 }
 
-std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id) {
+std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id,
+                                          std::optional<std::uint32_t> frame) {
   struct First {
     Size size;
     std::shared_ptr<const Film> complete;
   };
-  const First first = farm.ask([id](Farm& f, FarmTime now) {
-    const std::shared_ptr<const Film> film = film_now(f, id, now);
+  const First first = farm.ask([=](Farm& f, FarmTime now) {
+    const std::shared_ptr<const Film> film = film_now(f, id, frame, now);
     return First{film->size(), film->is_complete() ? film : nullptr};
   });
   if (first.complete) return first.complete;
@@ -72,8 +76,8 @@ std::shared_ptr<const Film> film_snapshot(const FarmDoor& farm, JobId id) {
   const std::uint32_t tiles = tile_count(first.size);
   for (std::uint32_t begin = 0; begin < tiles; begin += tiles_at_once) {
     const std::uint32_t end = std::min(begin + tiles_at_once, tiles);
-    const TilePasses passes =
-        farm.ask([=](Farm& f, FarmTime now) { return passes_there(*film_now(f, id, now), begin, end); });
+    const TilePasses passes = farm.ask(
+        [=](Farm& f, FarmTime now) { return passes_there(*film_now(f, id, frame, now), begin, end); });
     for (const auto& [tile, image] : passes) copy->put(tile, image);
   }
   return copy;

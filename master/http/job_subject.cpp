@@ -5,34 +5,46 @@
 namespace rayfarm {
 namespace {
 
-/// The job as it is on the farm's thread, if it can be looked into.
-JobView open_job(Farm& farm, JobId id, FarmTime now) {
-  std::optional<JobView> job = farm.job(id, now);
-  if (!job) throw no_such_job(id);
-  if (job->state == JobState::cancelled)
-    throw ApiError(409, text_of(id) + " was cancelled; submit it again to look into it");
-  if (job->state == JobState::failed) throw ApiError(409, text_of(id) + " failed: " + job->message);
-  if (!farm.scene(id))
-    throw ApiError(410, "the scene of " + text_of(id) + " is no longer kept; submit it again");
-  return std::move(*job);
+/// As it is on the farm's thread, if it can be looked into.
+JobSubject open_frame(const Farm& farm, JobId id, std::optional<std::uint32_t> number, FarmTime now) {
+  const FrameView frame = frame_view(farm, id, number, now);
+  JobView job = *farm.job(id, now);
+  const std::string what = text_of(id, number);
+  if (frame.state == JobState::cancelled)
+    throw ApiError(409, what + " was cancelled; submit it again to look into it");
+  if (frame.state == JobState::failed) throw ApiError(409, what + " failed: " + job.message);
+  if (frame.scene_hash.empty()) throw ApiError(409, "the scene of " + what + " has not come yet");
+  const SharedBytes scene = farm.scene(id, number);
+  if (!scene) throw ApiError(410, "the scene of " + what + " is no longer kept; submit it again");
+  RenderSettings settings = job.settings;
+  settings.frame = frame.frame;
+  return {std::move(job), frame, {frame.scene_hash, scene, settings}};
 }
 
 }  // namespace
 
-JobSubject job_subject(const FarmDoor& farm, JobId id) {
-  return farm.ask([id](Farm& f, FarmTime now) {
-    JobView job = open_job(f, id, now);
-    Subject subject{job.scene_hash, f.scene(id), job.settings};
-    return JobSubject{std::move(job), std::move(subject)};
-  });
+std::string text_of(JobId id, std::optional<std::uint32_t> frame) {
+  return (frame ? "frame " + std::to_string(*frame) + " of " : "") + text_of(id);
 }
 
-Deliveries job_deliveries(const FarmDoor& farm, JobId id) {
-  return farm.ask([id](Farm& f, FarmTime now) {
-    const JobView job = open_job(f, id, now);
+FrameView frame_view(const Farm& farm, JobId id, std::optional<std::uint32_t> number, FarmTime now) {
+  const std::optional<JobView> job = farm.job(id, now);
+  if (!job) throw no_such_job(id);
+  const std::optional<FrameView> frame = farm.frame(id, number, now);
+  if (!frame) throw ApiError(404, "there is no " + text_of(id, number) + ", it has " + text_of(job->frames));
+  return *frame;
+}
+
+JobSubject job_subject(const FarmDoor& farm, JobId id, std::optional<std::uint32_t> frame) {
+  return farm.ask([=](Farm& f, FarmTime now) { return open_frame(f, id, frame, now); });
+}
+
+Deliveries job_deliveries(const FarmDoor& farm, JobId id, std::optional<std::uint32_t> frame) {
+  return farm.ask([=](Farm& f, FarmTime now) {
+    const RenderSettings settings = open_frame(f, id, frame, now).subject.settings;
     Deliveries none;
-    none.tiles.resize(tile_count({job.settings.width, job.settings.height}));
-    return f.deliveries(id).value_or(std::move(none));
+    none.tiles.resize(tile_count({settings.width, settings.height}));
+    return f.deliveries(id, frame).value_or(std::move(none));
   });
 }
 

@@ -34,14 +34,22 @@ ApiResponse show_job(const Call& call) {
       call.doors.farm.ask([id = job_id(call)](Farm& farm, FarmTime now) { return job_now(farm, id, now); }));
 }
 
-/// {scene_of: 7, ...}: the very scene of that job, with other settings.
+/// {scene_of: 7, ...}: the very scene of that job, with other settings; of an animation that of settings.frame, or of
+/// the first.
 JobSpec job_like_another(const json& body, const FarmDoor& farm) {
-  for (const char* source : {"scene", "scene_name", "script", "script_name", "parameters"})
+  for (const char* source : {"scene", "scene_name", "script", "script_name", "parameters", "frames"})
     if (body.contains(source)) throw ApiError(400, std::string(source) + " and scene_of exclude each other");
   if (!body["scene_of"].is_number_unsigned()) throw ApiError(400, "scene_of must be the number of a job");
   JobSpec spec = job_wishes(body);
-  spec.settings = settings_from_json(body.value("settings", json::object()));
-  JobSubject other = job_subject(farm, JobId{body["scene_of"].get<std::uint64_t>()});
+  const json settings = body.value("settings", json::object());
+  spec.settings = settings_from_json(settings);
+  const JobId id{body["scene_of"].get<std::uint64_t>()};
+  JobSubject other = job_subject(farm, id, std::nullopt);
+  if (other.job.frames.count() > 1) {
+    const bool names_one = settings.contains("frame");
+    spec.settings.frame = names_one ? spec.settings.frame : other.job.frames.first;
+    other = job_subject(farm, id, spec.settings.frame);
+  }
   if (spec.name.empty()) spec.name = std::move(other.job.name);
   spec.parameters = std::move(other.job.parameters);
   spec.scene_hash = std::move(other.subject.scene_hash);
@@ -51,12 +59,39 @@ JobSpec job_like_another(const json& body, const FarmDoor& farm) {
 
 ApiResponse submit_job(const Call& call) {
   const json body = parse_json(call.request.body);
-  JobSpec spec = body.contains("scene_of") ? job_like_another(body, call.doors.farm)
-                                           : submitted_job(body, call.doors.scenes);
+  SubmittedJob job = body.contains("scene_of") ? SubmittedJob{job_like_another(body, call.doors.farm), {}}
+                                               : submitted_job(body, call.doors.scenes);
+  const std::optional<FrameRange> frames = job.spec.frames;
+  const json submitted = call.doors.farm.ask([spec = std::move(job.spec)](Farm& farm, FarmTime now) mutable {
+    const JobId id = farm.submit(std::move(spec), now);
+    return job_now(farm, id, now);
+  });
+  // A job that was there already is fed already.
+  if (job.script && frames && frames->count() > 1 && submitted["frames"]["sent"] == 1)
+    call.doors.feeder.feed(JobId{submitted["id"].get<std::uint64_t>()}, std::move(*job.script), *frames);
+  ApiResponse response = shown(submitted);
+  response.status = 201;
+  return response;
+}
+
+ApiResponse list_frames(const Call& call) {
+  return shown(call.doors.farm.ask([id = job_id(call)](Farm& farm, FarmTime now) {
+    if (!farm.job(id, now)) throw no_such_job(id);
+    json frames = json::array();
+    for (const FrameView& frame : farm.frames(id, now)) frames.push_back(to_json(frame));
+    return json{{"frames", std::move(frames)}};
+  }));
+}
+
+ApiResponse add_frame(const Call& call) {
+  SubmittedFrame frame = frame_from_json(body_of(call));
   ApiResponse response =
-      shown(call.doors.farm.ask([spec = std::move(spec)](Farm& farm, FarmTime now) mutable {
-        const JobId id = farm.submit(std::move(spec), now);
-        return job_now(farm, id, now);
+      shown(call.doors.farm.ask([id = job_id(call), frame = std::move(frame)](Farm& farm, FarmTime now) {
+        const bool is_taken = farm.add_frame({id, frame.number}, frame.scene.hash, frame.scene.bytes, now);
+        json job = job_now(farm, id, now);
+        if (!is_taken)
+          throw ApiError(409, text_of(id) + " has ended (" + job["state"].get<std::string>() + ")");
+        return job;
       }));
   response.status = 201;
   return response;
@@ -92,6 +127,8 @@ constexpr Route routes[]{
     {"GET", "/api/v1/jobs", list_jobs},
     {"POST", "/api/v1/jobs", submit_job, Work::script, submission_limit},
     {"GET", "/api/v1/jobs/{id}", show_job},
+    {"GET", "/api/v1/jobs/{id}/frames", list_frames},
+    {"POST", "/api/v1/jobs/{id}/frames", add_frame, Work::script, submission_limit},
     {"POST", "/api/v1/jobs/{id}/pause", pause_job},
     {"POST", "/api/v1/jobs/{id}/resume", resume_job},
     {"POST", "/api/v1/jobs/{id}/cancel", cancel_job},

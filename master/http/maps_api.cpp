@@ -92,22 +92,25 @@ ApiResponse map_file(const Map& map, const MapOrigin& origin, const MapFormat& f
 }
 
 /// Of a map that only the farm can tell: there when the job is done.
-ApiResponse show_delivery_map(const Call& call, const JobView& job, MapOrigin origin,
+ApiResponse show_delivery_map(const Call& call, const JobSubject& of, MapOrigin origin,
                               const MapFormat& format) {
-  if (job.state != JobState::done)
-    return in_the_making(static_cast<double>(job.pixels_done) / static_cast<double>(job.pixels_total));
-  const Deliveries deliveries = job_deliveries(call.doors.farm, job.id);
+  const FrameView& frame = of.frame;
+  if (frame.state != JobState::done)
+    return in_the_making(static_cast<double>(frame.pixels_done) / static_cast<double>(frame.pixels_total));
+  const Deliveries deliveries = job_deliveries(call.doors.farm, of.job.id, frame.frame);
   const MapKind& kind = *origin.request.kind;
   if (kind.source == MapSource::farm) origin.labels = deliveries.names;
-  return map_file(delivery_map(deliveries, {job.settings.width, job.settings.height}, kind), origin, format);
+  return map_file(delivery_map(deliveries, {origin.settings.width, origin.settings.height}, kind), origin,
+                  format);
 }
 
 ApiResponse show_map(const Call& call) {
   const MapRequest request = map_request(call);
   const MapFormat format = map_format(call);
-  const auto [job, subject] = job_subject(call.doors.farm, job_id(call));
+  const JobSubject of = job_subject(call.doors.farm, job_id(call), whole_in(call, "frame"));
+  const Subject& subject = of.subject;
   const MapOrigin origin{request, subject.scene_hash, subject.settings};
-  if (is_of_deliveries(*request.kind)) return show_delivery_map(call, job, origin, format);
+  if (is_of_deliveries(*request.kind)) return show_delivery_map(call, of, origin, format);
   const Made<Map> made = call.doors.diagnostics.map(subject, request);
   if (made.standing.state == LayerProgress::failed) throw ApiError(500, made.standing.message);
   if (!made.thing) return in_the_making(made.standing.share_done);

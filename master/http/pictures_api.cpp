@@ -5,6 +5,7 @@
 #include "master/files/difference.h"
 #include "master/files/film_picture.h"
 #include "master/http/film_snapshot.h"
+#include "master/http/job_subject.h"
 #include "master/http/query.h"
 
 namespace rayfarm {
@@ -13,25 +14,30 @@ namespace {
 using nlohmann::json;
 
 ApiResponse show_film(const Call& call) {
-  return {200, "application/octet-stream", encode_film(*film_snapshot(call.doors.farm, job_id(call)))};
+  return {200, "application/octet-stream",
+          encode_film(*film_snapshot(call.doors.farm, job_id(call), whole_in(call, "frame")))};
 }
 
-Picture picture_of(const FarmDoor& farm, JobId id) {
-  const std::shared_ptr<const Film> film = film_snapshot(farm, id);
-  const auto job = farm.ask([id](Farm& f, FarmTime now) { return f.job(id, now); });
-  if (!job) throw no_such_job(id);
-  return film_picture(*film, job->scene_hash, job->settings);
+Picture picture_of(const FarmDoor& farm, JobId id, std::optional<std::uint32_t> number) {
+  const std::shared_ptr<const Film> film = film_snapshot(farm, id, number);
+  return farm.ask([=](Farm& f, FarmTime now) {
+    const FrameView frame = frame_view(f, id, number, now);
+    RenderSettings settings = f.job(id, now)->settings;
+    settings.frame = frame.frame;
+    return film_picture(*film, frame.scene_hash, settings);
+  });
 }
 
 ApiResponse show_exr(const Call& call) {
-  return {200, "image/x-exr", exr_bytes(picture_of(call.doors.farm, job_id(call)))};
+  return {200, "image/x-exr", exr_bytes(picture_of(call.doors.farm, job_id(call), whole_in(call, "frame")))};
 }
 
 ApiResponse show_png(const Call& call) {
   const std::optional<std::uint32_t> longest_side = whole_in(call, "longest_side");
-  if (!longest_side) return {200, "image/png", png_bytes(picture_of(call.doors.farm, job_id(call)))};
+  if (!longest_side)
+    return {200, "image/png", png_bytes(picture_of(call.doors.farm, job_id(call), whole_in(call, "frame")))};
   if (*longest_side == 0) throw ApiError(400, "longest_side must be 1 or more");
-  const std::shared_ptr<const Film> film = film_snapshot(call.doors.farm, job_id(call));
+  const auto film = film_snapshot(call.doors.farm, job_id(call), whole_in(call, "frame"));
   return {200, "image/png", png_bytes(preview(*film, *longest_side))};
 }
 
@@ -42,7 +48,9 @@ struct Pair {
 };
 
 Pair pictures_of(const Call& call) {
-  Pair pair{picture_of(call.doors.farm, job_id(call)), picture_of(call.doors.farm, job_id(call, 1))};
+  const FarmDoor& farm = call.doors.farm;
+  Pair pair{picture_of(farm, job_id(call), whole_in(call, "frame")),
+            picture_of(farm, job_id(call, 1), whole_in(call, "other_frame"))};
   if (pair.a.size == pair.b.size) return pair;
   const auto text = [](Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); };
   throw ApiError(409, "only pictures of the same size can be compared: these have " + text(pair.a.size) +

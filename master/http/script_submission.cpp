@@ -5,6 +5,7 @@
 #include "common/net/codec.h"
 #include "common/net/text.h"
 #include "master/http/settings_json.h"
+#include "master/script/animation.h"
 
 namespace rayfarm {
 namespace {
@@ -91,24 +92,27 @@ json to_json(const OfferedScene& scene) {
   return object;
 }
 
-JobSpec submitted_job(const json& body, const SceneLibrary& library) {
+SubmittedJob submitted_job(const json& body, const SceneLibrary& library) {
   const auto sources = body.contains("scene") + body.contains("scene_name") + body.contains("script");
   if (sources != 1) throw ApiError(400, "one of scene, scene_name and script must be there");
-  if (body.contains("scene")) return job_spec(body);
+  if (body.contains("scene")) return {job_spec(body), {}};
 
   JobSpec spec = job_wishes(body);
   const json settings = body.value("settings", json::object());
   spec.settings = settings_from_json(settings);  // a mistake in them is told before the script runs
-  NamedScript script = chosen_script(body, library);
-  const std::string name = script.name;
-  const ScriptResult result =
-      evaluate({std::move(script.name), std::move(script.text), spec.parameters, spec.settings.frame});
-  spec.settings = settings_for(settings, result.scene.image);
+  NamedScript chosen = chosen_script(body, library);
+  const std::string name = chosen.name;
   if (spec.name.empty()) spec.name = name.ends_with(".lua") ? name.substr(0, name.size() - 4) : name;
-  Bytes bytes = encode_scene(result.scene);
+  const std::uint32_t first = spec.frames ? spec.frames->first : spec.settings.frame;
+  ScriptRequest script{std::move(chosen.name), std::move(chosen.text), spec.parameters, first, {}};
+  const Scene scene = evaluate(script).scene;
+  if (spec.frames) expect_frames(script.name, scene, *spec.frames);
+  script.animation = scene.animation;
+  spec.settings = settings_for(settings, scene.image);
+  Bytes bytes = encode_scene(scene);
   spec.scene_hash = sha256_hex(bytes);
   spec.scene_bytes = std::make_shared<const Bytes>(std::move(bytes));
-  return spec;
+  return {std::move(spec), std::move(script)};
 }
 
 }  // namespace rayfarm

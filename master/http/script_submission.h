@@ -14,9 +14,14 @@ ScriptFacts script_facts(const nlohmann::json& body);
 nlohmann::json to_json(const ScriptFacts& facts);
 nlohmann::json to_json(const OfferedScene& scene);
 
+struct SubmittedJob {
+  JobSpec spec;
+  std::optional<ScriptRequest> script;  // that the other frames come from; none: its submitter sends them
+};
+
 /// What POST /jobs brings: with `scene` as job_spec(), else with `scene_name`, or with `script` (and
 /// script_name), and `parameters`. The script is evaluated; a setting not given is the scene's, then the
 /// built-in one. Throws what job_spec() throws.
-JobSpec submitted_job(const nlohmann::json& body, const SceneLibrary& library);
+SubmittedJob submitted_job(const nlohmann::json& body, const SceneLibrary& library);
 
 }  // namespace rayfarm

@@ -1,6 +1,8 @@
 #include "master/http/submission.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "common/net/codec.h"
@@ -46,6 +48,26 @@ std::map<std::string, std::string> parameters_in(const json& body) {
   return parameters;
 }
 
+std::uint32_t frame_number(const json& value, const char* name, std::uint32_t otherwise) {
+  const json number = value.value(name, json(otherwise));
+  if (!number.is_number_unsigned() || number.get<std::uint64_t>() > UINT32_MAX)
+    throw ApiError(400, std::string(name) + " must be a whole number, 0 or more");
+  return number.get<std::uint32_t>();
+}
+
+/// {first, last, step}: the step may be left out.
+std::optional<FrameRange> frames_in(const json& body) {
+  if (!body.contains("frames")) return std::nullopt;
+  const json& value = body["frames"];
+  if (!value.is_object() || !value.contains("first") || !value.contains("last"))
+    throw ApiError(400, "frames must be an object with first and last, and step");
+  for (const auto& [name, ignored] : value.items())
+    if (name != "first" && name != "last" && name != "step")
+      throw ApiError(400, "frames." + name + " is unknown");
+  return frame_range(frame_number(value, "first", 0), frame_number(value, "last", 0),
+                     frame_number(value, "step", 1));
+}
+
 }  // namespace
 
 json parse_json(const std::string& text) {
@@ -72,8 +94,9 @@ int priority_from_json(const json& value) {
 }
 
 JobSpec job_wishes(const json& body) {
-  constexpr std::array known{"scene", "scene_name", "scene_of", "script", "script_name", "parameters",
-                             "name",  "output",     "priority", "hold",   "key",         "settings"};
+  constexpr std::array known{"scene",      "scene_name", "scene_of", "script", "script_name",
+                             "parameters", "frames",     "name",     "output", "priority",
+                             "hold",       "key",        "settings"};
   for (const auto& [name, ignored] : body.items())
     if (std::find(known.begin(), known.end(), name) == known.end()) throw ApiError(400, name + " is unknown");
 
@@ -84,31 +107,51 @@ JobSpec job_wishes(const json& body) {
   spec.hold = flag_in(body, "hold");
   if (body.contains("priority")) spec.priority = priority_from_json(body["priority"]);
   spec.parameters = parameters_in(body);
+  spec.frames = frames_in(body);
   return spec;
+}
+
+SceneData scene_in(const json& body) {
+  if (!body.contains("scene") || !body["scene"].is_string())
+    throw ApiError(400, "scene must be there: the encoded scene in base64");
+  Bytes bytes = from_base64(body["scene"].get_ref<const std::string&>());
+  decode_scene(bytes);  // throws unless it can be rendered; workers decode it again
+  const std::string hash = sha256_hex(bytes);
+  return {hash, std::make_shared<const Bytes>(std::move(bytes))};
 }
 
 JobSpec job_spec(const json& body) {
-  if (!body.contains("scene") || !body["scene"].is_string())
-    throw ApiError(400, "scene must be there: the encoded scene in base64");
-
   JobSpec spec = job_wishes(body);
   spec.settings = settings_from_json(body.value("settings", json::object()));
-  Bytes bytes = from_base64(body["scene"].get_ref<const std::string&>());
-  decode_scene(bytes);  // throws unless it can be rendered; workers decode it again
-  spec.scene_hash = sha256_hex(bytes);
-  spec.scene_bytes = std::make_shared<const Bytes>(std::move(bytes));
+  SceneData scene = scene_in(body);
+  spec.scene_hash = std::move(scene.hash);
+  spec.scene_bytes = std::move(scene.bytes);
   return spec;
 }
 
+SubmittedFrame frame_from_json(const json& body) {
+  for (const auto& [name, ignored] : body.items())
+    if (name != "frame" && name != "scene") throw ApiError(400, name + " is unknown");
+  if (!body.contains("frame")) throw ApiError(400, "frame must be there: the frame's number");
+  return {frame_number(body, "frame", 0), scene_in(body)};
+}
+
+json to_json(const SubmittedFrame& frame) {
+  return {{"frame", frame.number}, {"scene", base64(*frame.scene.bytes)}};
+}
+
 json to_json(const JobSpec& spec) {
-  return {{"scene", base64(*spec.scene_bytes)},
-          {"name", spec.name},
-          {"output", spec.output},
-          {"priority", spec.priority},
-          {"hold", spec.hold},
-          {"key", spec.key},
-          {"parameters", spec.parameters},
-          {"settings", to_json(spec.settings)}};
+  json object = {{"scene", base64(*spec.scene_bytes)},
+                 {"name", spec.name},
+                 {"output", spec.output},
+                 {"priority", spec.priority},
+                 {"hold", spec.hold},
+                 {"key", spec.key},
+                 {"parameters", spec.parameters},
+                 {"settings", to_json(spec.settings)}};
+  if (const auto& frames = spec.frames)
+    object["frames"] = {{"first", frames->first}, {"last", frames->last}, {"step", frames->step}};
+  return object;
 }
 
 }  // namespace rayfarm

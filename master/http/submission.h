@@ -17,12 +17,21 @@ constexpr std::uint64_t largest_scene =
 /// Throws ApiError.
 nlohmann::json parse_json(const std::string& text);
 
-/// {scene, name, output, priority, hold, key, parameters, settings}: only the scene (base64 of encode_scene)
+/// {scene, frames, name, output, priority, hold, key, parameters, settings}: only the scene (base64 of encode_scene)
 /// must be there. The scene is decoded and checked. Throws ApiError, SettingsError, SceneError or CodecError.
 JobSpec job_spec(const nlohmann::json& body);
 /// All of a submission but its scene and settings. Throws ApiError, also for what no submission has.
 JobSpec job_wishes(const nlohmann::json& body);
 nlohmann::json to_json(const JobSpec& spec);
+
+/// Another frame of a job: {frame, scene}.
+struct SubmittedFrame {
+  std::uint32_t number = 0;
+  SceneData scene;
+};
+/// Throws as job_spec().
+SubmittedFrame frame_from_json(const nlohmann::json& body);
+nlohmann::json to_json(const SubmittedFrame& frame);
 
 int priority_from_json(const nlohmann::json& value);
 

@@ -54,6 +54,7 @@ std::string reason(const HelperEnd& end, const ScriptLimits& limits) {
     return "the script takes more than " + std::to_string(limits.wall.count() / 1000.0).substr(0, 4) +
            " s, is there an endless loop?";
   if (end.kind == HelperEnd::Kind::output_too_long) return "the scene is too large";
+  if (end.kind == HelperEnd::Kind::stopped) return "interrupted";
   if (end.kind == HelperEnd::Kind::signalled && end.code == SIGXCPU)
     return "the script takes more than " + std::to_string(limits.cpu_seconds) +
            " s of processor time: an endless loop, or a string pattern with many repetitions?";
@@ -65,7 +66,8 @@ std::string reason(const HelperEnd& end, const ScriptLimits& limits) {
 
 }  // namespace
 
-ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits) {
+ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits,
+                      const std::function<bool()>& stop) {
   if (request.text.size() > max_text)
     throw SceneError(request.name + ": a script may have at most " + std::to_string(max_text >> 20) + " MB");
   Printer printer(request.name);
@@ -73,7 +75,7 @@ ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits) 
   HelperEnd end;
   try {
     end = run_helper(
-        {helper_program(), task, limits.wall, max_reply, [&](std::string_view s) { printer.take(s); }});
+        {helper_program(), task, limits.wall, max_reply, [&](std::string_view s) { printer.take(s); }, stop});
   } catch (const std::system_error& error) {
     throw SceneError(request.name + ": cannot start the script helper: " + error.what() +
                      "; is rayfarm installed whole?");
@@ -89,15 +91,21 @@ ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits) 
   }
 }
 
-ScriptResult evaluate_file(const std::filesystem::path& file, std::map<std::string, std::string> params,
-                           std::uint32_t frame) {
+ScriptRequest read_script(const std::filesystem::path& file, std::map<std::string, std::string> params) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
     throw SceneError("cannot read the scene script " + file.string());
   std::string text(max_text + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  return evaluate({file.filename().string(), std::move(text), std::move(params), frame});
+  return {file.filename().string(), std::move(text), std::move(params), 0, {}};
+}
+
+ScriptResult evaluate_file(const std::filesystem::path& file, std::map<std::string, std::string> params,
+                           std::uint32_t frame) {
+  ScriptRequest request = read_script(file, std::move(params));
+  request.frame = frame;
+  return evaluate(request);
 }
 
 }  // namespace rayfarm

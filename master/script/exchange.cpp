@@ -51,18 +51,24 @@ ScriptParameter parameter_from(const json& value) {
 }  // namespace
 
 std::string encode_task(const ScriptTask& task) {
-  const json head = {{"name", task.request.name},
-                     {"params", task.request.params},
-                     {"frame", task.request.frame},
-                     {"cpu_seconds", task.limits.cpu_seconds},
-                     {"memory_bytes", task.limits.memory_bytes}};
+  json head = {{"name", task.request.name},
+               {"params", task.request.params},
+               {"frame", task.request.frame},
+               {"cpu_seconds", task.limits.cpu_seconds},
+               {"memory_bytes", task.limits.memory_bytes}};
+  if (const auto& animation = task.request.animation)
+    head["animation"] = {animation->start, animation->stop, animation->fps};
   return message(head, task.request.text);
 }
 
 ScriptTask decode_task(std::string_view bytes) {
   const auto [head, text] = split(bytes);
   ScriptTask task;
-  task.request = {head.at("name"), std::string(text), head.at("params"), head.at("frame")};
+  task.request = {head.at("name"), std::string(text), head.at("params"), head.at("frame"), {}};
+  if (head.contains("animation")) {
+    const json& animation = head.at("animation");
+    task.request.animation = Animation{animation.at(0), animation.at(1), animation.at(2)};
+  }
   task.limits.cpu_seconds = head.at("cpu_seconds");
   task.limits.memory_bytes = head.at("memory_bytes");
   return task;

@@ -2,8 +2,7 @@
 
 #include <lauxlib.h>
 
-#include <cmath>
-
+#include "master/script/animation.h"
 #include "master/script/lua_library.h"
 #include "master/script/lua_nodes.h"
 #include "master/script/lua_params.h"
@@ -54,24 +53,26 @@ ScriptResult run_at(const Job& job, const ScriptLimits& limits) {
   return {std::move(*run.scene), std::move(run.parameters)};
 }
 
-void check_frame(const Animation& a, std::uint32_t frame) {
-  constexpr double rounding = 1e-6;  // frames: a product that should be 29 may be 28.999999999999996
-  const double last = std::floor((a.stop - a.start) * a.fps + rounding);
-  if (frame > last)
-    throw SceneError("there is no frame " + std::to_string(frame) + ": the animation's last frame is " +
-                     std::to_string(static_cast<std::uint64_t>(last)));
+ScriptResult run_frame(const ScriptRequest& request, const Animation& animation, const ScriptLimits& limits) {
+  check_frame(animation, request.frame);
+  ScriptResult result = run_at({request, time_of(animation, request.frame)}, limits);
+  if (result.scene.animation != animation)
+    throw SceneError("the animation of frame " + std::to_string(request.frame) +
+                     " is another one; start, stop and fps must not change with time");
+  return result;
 }
 
 }  // namespace
 
 ScriptResult run_script(const ScriptRequest& request, const ScriptLimits& limits) {
   try {
+    if (request.animation) return run_frame(request, *request.animation, limits);
     ScriptResult result = run_at({request, 0}, limits);
     if (!result.scene.animation) return result;
-    check_frame(*result.scene.animation, request.frame);
     // What the time is only the script can say; where it is not 0, it is evaluated again.
-    const double time = result.scene.animation->start + request.frame / result.scene.animation->fps;
-    return time == 0 ? result : run_at({request, time}, limits);
+    if (request.frame != 0 || result.scene.animation->start != 0)
+      return run_frame(request, *result.scene.animation, limits);
+    return result;
   } catch (const SceneError& error) {
     const std::string message = error.what();
     // Lua's messages begin with the file and line already.

@@ -5,6 +5,7 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,6 +34,8 @@ struct ScriptRequest {
   std::string text;
   std::map<std::string, std::string> params;  // -p key=value
   std::uint32_t frame = 0;                    // time = animation.start + frame / fps, at most animation.stop
+  // As another frame of the script has it; then the script is evaluated once, and need not be asked first.
+  std::optional<Animation> animation{};
 };
 
 struct ScriptResult {
@@ -40,10 +43,13 @@ struct ScriptResult {
   std::vector<ScriptParameter> parameters;
 };
 
-/// Throws SceneError: syntax or run-time error with file and line, an unknown key or parameter, a limit
-/// exceeded.
-ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits = {});
+/// Throws SceneError: syntax or run-time error with file and line, an unknown key or parameter, a frame that the
+/// animation has not, a limit exceeded; also soon after stop() said true, which is asked ten times a second.
+ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits = {},
+                      const std::function<bool()>& stop = {});
 
+/// Throws SceneError when the file cannot be read.
+ScriptRequest read_script(const std::filesystem::path& file, std::map<std::string, std::string> params);
 /// Reads the file and evaluates it. Throws SceneError also when it cannot be read.
 ScriptResult evaluate_file(const std::filesystem::path& file, std::map<std::string, std::string> params,
                            std::uint32_t frame);

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <system_error>
@@ -17,6 +18,8 @@ namespace rayfarm {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds between_questions{100};
 
 void require(int error, const char* what) {
   if (error != 0) throw std::system_error(error, std::generic_category(), what);
@@ -111,9 +114,12 @@ HelperEnd converse(const HelperRun& run, Descriptor& stdio, Descriptor& talk) {
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return {HelperEnd::Kind::timed_out, 0, {}};
+    if (run.stop && run.stop()) return {HelperEnd::Kind::stopped, 0, {}};
+    const auto longest = run.stop ? std::min(left, between_questions.count()) : left;
     const short stdio_events = unsent.empty() ? POLLIN : POLLIN | POLLOUT;
     std::array<pollfd, 2> polled{{{stdio.get(), stdio_events, 0}, {talk.get(), POLLIN, 0}}};
-    if (poll(polled.data(), polled.size(), static_cast<int>(std::min<decltype(left)>(left, 1 << 30))) < 0) {
+    if (poll(polled.data(), polled.size(), static_cast<int>(std::min<decltype(left)>(longest, 1 << 30))) <
+        0) {
       if (errno != EINTR) require(errno, "poll");
       continue;
     }

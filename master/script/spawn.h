@@ -16,10 +16,12 @@ struct HelperRun {
   std::size_t max_output = 0;         // bytes; one more and it is killed
   /// Called with what the helper writes to its standard error, as it comes.
   std::function<void(std::string_view)> on_talk;
+  /// Asked ten times a second; the helper is killed when it says true. None: never.
+  std::function<bool()> stop{};
 };
 
 struct HelperEnd {
-  enum class Kind { exited, signalled, timed_out, output_too_long } kind = Kind::exited;
+  enum class Kind { exited, signalled, timed_out, output_too_long, stopped } kind = Kind::exited;
   int code = 0;        // exit code, or the signal's number
   std::string output;  // of its standard output
 };

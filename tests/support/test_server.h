@@ -22,10 +22,12 @@ class TestServer {
                       MasterDoor master = lone_master())
       : door_(std::move(on_farm)),
         master_(std::move(master)),
-        server_(
-            std::move(settings),
-            {.farm = door_, .diagnostics = diagnostics_, .master = master_, .app = app_, .scenes = scenes_}) {
-  }
+        server_(std::move(settings), {.farm = door_,
+                                      .feeder = feeder_,
+                                      .diagnostics = diagnostics_,
+                                      .master = master_,
+                                      .app = app_,
+                                      .scenes = scenes_}) {}
 
   std::string url() const { return server_.url(); }
   std::uint16_t port() const {
@@ -35,6 +37,7 @@ class TestServer {
  private:
   FarmDoor door_;
   const MasterDoor master_;
+  FrameFeeder feeder_{door_};
   Diagnostics diagnostics_{1};
   const AppFiles app_;
   const SceneLibrary scenes_;

@@ -7,6 +7,7 @@ namespace rayfarm {
 
 /// Each question keeps the map in the making, and throws what job_subject() throws. Farm and diagnostics
 /// outlive it.
-LayerSource map_layer(const FarmDoor& farm, Diagnostics& diagnostics, JobId id, const MapRequest& request);
+LayerSource map_layer(const FarmDoor& farm, Diagnostics& diagnostics, JobId id,
+                      std::optional<std::uint32_t> frame, const MapRequest& request);
 
 }  // namespace rayfarm

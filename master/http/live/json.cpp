@@ -25,7 +25,14 @@ Value member(const json& object, const char* name, const Value& otherwise) {
 LayerName layer_from_json(const json& value) {
   const json* job = value.is_object() && value.contains("job") ? &value["job"] : nullptr;
   if (!job || !job->is_number_unsigned()) throw ApiError(400, "what is watched has a job, a whole number");
-  LayerName name{JobId{job->get<std::uint64_t>()}, member<std::string>(value, "layer", "picture"), "", false};
+  LayerName name{
+      JobId{job->get<std::uint64_t>()}, {}, member<std::string>(value, "layer", "picture"), "", false};
+  if (value.contains("frame")) {
+    const json& frame = value["frame"];
+    if (!frame.is_number_unsigned() || frame.get<std::uint64_t>() > UINT32_MAX)
+      throw ApiError(400, "frame cannot be " + frame.dump());
+    name.frame = frame.get<std::uint32_t>();
+  }
   if (name.layer == "picture") return name;
   name.reduce = member<std::string>(value, "reduce", "majority");
   name.compat = member(value, "compat", false);
@@ -69,6 +76,7 @@ SharedMessage layer_message(const LayerFeed& feed, std::size_t watch) {
                {"progress", state.share_done},
                {"message", state.message},
                {"range", state.range ? json(*state.range) : json()}};
+  if (feed.name().frame) message["frame"] = *feed.name().frame;
   if (!state.labels.empty()) message["labels"] = state.labels;
   return text_message(message);
 }

@@ -13,7 +13,7 @@ SharedMessage log_message(std::span<const LogLine> lines, FarmTime now);
 /// `watch`: its place in the viewer's list.
 SharedMessage layer_message(const LayerFeed& feed, std::size_t watch);
 
-/// {"watch": [{"job": 7, "layer": "depth", "reduce": "mean", "compat": true}, ...]}. Throws ApiError for
+/// {"watch": [{"job": 7, "frame": 12, "layer": "depth", "reduce": "mean", "compat": true}, ...]}. Throws ApiError for
 /// anything else.
 std::vector<LayerName> layers_to_watch(const std::string& text);
 

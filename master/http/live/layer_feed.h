@@ -15,7 +15,8 @@ namespace rayfarm {
 
 struct LayerName {
   JobId job{};
-  std::string layer;  // "picture", or a map's name
+  std::optional<std::uint32_t> frame;  // none: the first
+  std::string layer;                   // "picture", or a map's name
   std::string reduce;
   bool compat = false;
   auto operator<=>(const LayerName&) const = default;

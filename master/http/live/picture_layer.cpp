@@ -5,20 +5,21 @@
 
 #include "master/http/api_error.h"
 #include "master/http/film_snapshot.h"
+#include "master/http/job_subject.h"
 
 namespace rayfarm {
 namespace {
 
-LayerState state_of(const JobView& job) {
+LayerState state_of(const JobView& job, const FrameView& frame) {
   LayerState state;
   state.size = {job.settings.width, job.settings.height};
   state.channels = 3;
-  state.share_done = static_cast<double>(job.pixels_done) / static_cast<double>(job.pixels_total);
-  if (job.state == JobState::done) state.state = LayerProgress::done;
-  if (job.state == JobState::cancelled || job.state == JobState::failed) {
+  state.share_done = static_cast<double>(frame.pixels_done) / static_cast<double>(frame.pixels_total);
+  if (frame.state == JobState::done) state.state = LayerProgress::done;
+  if (frame.state == JobState::cancelled || frame.state == JobState::failed) {
     state.state = LayerProgress::failed;
     state.message =
-        text_of(job.id) + (job.state == JobState::failed ? " failed: " + job.message : " was cancelled");
+        text_of(job.id) + (frame.state == JobState::failed ? " failed: " + job.message : " was cancelled");
   }
   return state;
 }
@@ -48,7 +49,8 @@ std::vector<TileNews> new_tiles(const Film& film, const std::vector<std::uint32_
 
 class PictureLayer {
  public:
-  PictureLayer(const FarmDoor& farm, JobId id) : farm_(&farm), id_(id) {}
+  PictureLayer(const FarmDoor& farm, JobId id, std::optional<std::uint32_t> frame)
+      : farm_(&farm), id_(id), frame_(frame) {}
 
   LayerNews operator()(const std::vector<PassSet>& known, std::uint32_t most_tiles) {
     if (!complete_) return news_from_farm(known, most_tiles);
@@ -62,13 +64,14 @@ class PictureLayer {
   };
 
   LayerNews news_from_farm(const std::vector<PassSet>& known, std::uint32_t most_tiles) {
-    Look look = farm_->ask([id = id_, order = order_, known, most_tiles](Farm& farm, FarmTime now) {
-      const std::shared_ptr<const Film> film = film_so_far(farm, id, now);
-      const JobView job = *farm.job(id, now);
-      Look seen{{state_of(job), {}}, film && film->is_complete() ? film : nullptr};
-      if (film && order) seen.news.tiles = new_tiles(*film, *order, known, most_tiles);
-      return seen;
-    });
+    Look look =
+        farm_->ask([id = id_, number = frame_, order = order_, known, most_tiles](Farm& farm, FarmTime now) {
+          const std::shared_ptr<const Film> film = film_so_far(farm, id, number, now);
+          Look seen{{state_of(*farm.job(id, now), frame_view(farm, id, number, now)), {}},
+                    film && film->is_complete() ? film : nullptr};
+          if (film && order) seen.news.tiles = new_tiles(*film, *order, known, most_tiles);
+          return seen;
+        });
     if (!order_)
       order_ = std::make_shared<const std::vector<std::uint32_t>>(centre_first(look.news.state.size));
     state_ = look.news.state;
@@ -78,6 +81,7 @@ class PictureLayer {
 
   const FarmDoor* farm_;
   JobId id_;
+  std::optional<std::uint32_t> frame_;
   std::shared_ptr<const std::vector<std::uint32_t>> order_;  // of the tiles, once the size is known
   LayerState state_;                                         // when last asked
   std::shared_ptr<const Film> complete_;
@@ -85,6 +89,8 @@ class PictureLayer {
 
 }  // namespace
 
-LayerSource picture_layer(const FarmDoor& farm, JobId job) { return PictureLayer(farm, job); }
+LayerSource picture_layer(const FarmDoor& farm, JobId job, std::optional<std::uint32_t> frame) {
+  return PictureLayer(farm, job, frame);
+}
 
 }  // namespace rayfarm

@@ -1,4 +1,4 @@
-// A job's picture as a layer: tiles of its film, taken from the farm a few at a time.
+// A picture of a job as a layer: tiles of its film, taken from the farm a few at a time.
 #pragma once
 #include "master/diagnostics/layer.h"
 #include "master/http/farm_door.h"
@@ -7,6 +7,6 @@ namespace rayfarm {
 
 /// The farm's thread is asked once a call, and copies no more than the tiles that are told; not even that once
 /// the film is complete. The door must outlive the source.
-LayerSource picture_layer(const FarmDoor& farm, JobId job);
+LayerSource picture_layer(const FarmDoor& farm, JobId job, std::optional<std::uint32_t> frame);
 
 }  // namespace rayfarm

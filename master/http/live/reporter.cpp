@@ -25,12 +25,12 @@ LayerSource no_layer(const std::string& words) {
 }
 
 LayerSource source_of(const Doors& doors, const LayerName& name) {
-  if (name.layer == "picture") return picture_layer(doors.farm, name.job);
+  if (name.layer == "picture") return picture_layer(doors.farm, name.job, name.frame);
   const MapKind* kind = map_named(name.layer);
   const std::optional<Reduction> reduction = reduction_named(name.reduce);
   if (!kind) return no_layer("there is no map " + name.layer);
   if (!reduction) return no_layer("maps are not reduced to " + name.reduce);
-  return map_layer(doors.farm, doors.diagnostics, name.job, {kind, *reduction, name.compat});
+  return map_layer(doors.farm, doors.diagnostics, name.job, name.frame, {kind, *reduction, name.compat});
 }
 
 struct FarmNow {

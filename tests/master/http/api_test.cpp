@@ -8,40 +8,14 @@
 #include "common/net/codec.h"
 #include "master/files/film_picture.h"
 #include "master/http/submission.h"
+#include "tests/master/http/api_fixture.h"
 #include "tests/support/scratch_folder.h"
-#include "tests/support/test_server.h"
 #include "tests/support/test_submission.h"
 
 namespace rayfarm {
 namespace {
 
 using nlohmann::json;
-
-class Api : public testing::Test {
- protected:
-  ApiResponse get(const std::string& target) {
-    return answer({"GET", target, "", "", "", "", ""},
-                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes});
-  }
-  ApiResponse post(const std::string& target, const json& body = json::object()) {
-    return answer({"POST", target, "", "", "", "", body.dump()},
-                  {.farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes});
-  }
-  json get_json(const std::string& target) { return json::parse(get(target).body); }
-  std::string submit(const JobSpec& spec = small_job()) {
-    return json::parse(post("/api/v1/jobs", to_json(spec)).body)["id"].dump();
-  }
-  void wait_until_done(const std::string& id) {
-    while (get_json("/api/v1/jobs/" + id)["state"] != "done") std::this_thread::yield();
-  }
-
-  FarmThread farm;
-  FarmDoor door{[this](FarmThread::Task task) { farm.post(std::move(task)); }};
-  Diagnostics diagnostics{1};
-  MasterDoor master = lone_master();
-  const AppFiles app;
-  const SceneLibrary scenes;
-};
 
 TEST_F(Api, ASubmittedJobIsListedAndShownWithItsSettings) {
   const ApiResponse submitted = post("/api/v1/jobs", to_json(small_job()));

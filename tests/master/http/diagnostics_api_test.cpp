@@ -35,8 +35,12 @@ class DiagnosticsApi : public testing::Test {
   explicit DiagnosticsApi(FarmLimits limits = {}) : farm(limits) {}
 
   ApiResponse get(const std::string& target) {
-    const Doors doors{
-        .farm = door, .diagnostics = diagnostics, .master = master, .app = app, .scenes = scenes};
+    const Doors doors{.farm = door,
+                      .feeder = feeder,
+                      .diagnostics = diagnostics,
+                      .master = master,
+                      .app = app,
+                      .scenes = scenes};
     return answer({"GET", "/api/v1/" + target, "", "", "", "", ""}, doors);
   }
   json get_json(const std::string& target) { return json::parse(get(target).body.text()); }
@@ -73,6 +77,7 @@ class DiagnosticsApi : public testing::Test {
 
   FarmThread farm;
   FarmDoor door{door_to(farm)};
+  FrameFeeder feeder{door};
   Diagnostics diagnostics{0};
   MasterDoor master = lone_master();
   const AppFiles app;
@@ -257,7 +262,7 @@ TEST_F(DiagnosticsApi, ASampleOfVeryManyRaysIsCut) {
 
 TEST_F(DiagnosticsApi, AMapIsALayerForThoseWhoWatchIt) {
   const JobId job = submit();
-  const LayerSource layer = map_layer(door, diagnostics, job, {});
+  const LayerSource layer = map_layer(door, diagnostics, job, {}, {});
   EXPECT_EQ(layer({}, 0).state.state, LayerProgress::making);
   work();
   const LayerNews news = layer({}, 9);
@@ -270,14 +275,14 @@ TEST_F(DiagnosticsApi, AMapIsALayerForThoseWhoWatchIt) {
 
 TEST_F(DiagnosticsApi, WhoRenderedWhatIsALayerThatGrowsWithTheJob) {
   const JobId job = submit();
-  const LayerSource layer = map_layer(door, diagnostics, job, {map_named("worker")});
+  const LayerSource layer = map_layer(door, diagnostics, job, {}, {map_named("worker")});
   EXPECT_EQ(layer({}, 9).state.state, LayerProgress::making);
   EXPECT_TRUE(layer({}, 9).tiles.empty());
   farm.add_renderer("pc");
   while (layer({}, 0).state.state != LayerProgress::done) std::this_thread::yield();
   EXPECT_EQ(layer({}, 9).tiles.size(), 4u);
   EXPECT_EQ(layer({}, 9).state.labels, std::vector<std::string>{"pc"});
-  EXPECT_THROW(map_layer(door, diagnostics, JobId{77}, {map_named("worker")})({}, 0), ApiError);
+  EXPECT_THROW(map_layer(door, diagnostics, JobId{77}, {}, {map_named("worker")})({}, 0), ApiError);
 }
 
 }  // namespace

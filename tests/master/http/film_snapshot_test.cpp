@@ -40,7 +40,7 @@ TEST_F(FilmSnapshot, OfAGrowingFilmIsWhatIsThereAndStaysSo) {
   farm.add_renderer("pc2", 3);
   while (film(id)->pixels_done() < 270 * 50) std::this_thread::yield();
   std::shared_ptr<const Film> snapshot;
-  do snapshot = film_snapshot(door, id);
+  do snapshot = film_snapshot(door, id, {});
   while (snapshot->pixels_done() != film(id)->pixels_done());
   EXPECT_FALSE(snapshot->is_complete());
   EXPECT_NE(snapshot, film(id));
@@ -51,7 +51,7 @@ TEST_F(FilmSnapshot, OfACompleteFilmIsTheFilmItself) {
   const JobId id = submit(96, 80);
   farm.add_renderer("pc1");
   while (!film(id)->is_complete()) std::this_thread::yield();
-  EXPECT_EQ(film_snapshot(door, id), film(id));
+  EXPECT_EQ(film_snapshot(door, id, {}), film(id));
 }
 
 TEST_F(FilmSnapshot, OfAnOldJobIsGone) {
@@ -59,7 +59,7 @@ TEST_F(FilmSnapshot, OfAnOldJobIsGone) {
   farm.add_renderer("pc1");
   while (!film(next) || !film(next)->is_complete()) std::this_thread::yield();
   try {
-    film_snapshot(door, old);
+    film_snapshot(door, old, {});
     FAIL();
   } catch (const ApiError& error) {
     EXPECT_EQ(error.status, 410u);
@@ -68,8 +68,8 @@ TEST_F(FilmSnapshot, OfAnOldJobIsGone) {
 }
 
 TEST_F(FilmSnapshot, WithoutAFilmIsAnError) {
-  EXPECT_THROW(film_snapshot(door, JobId{7}), ApiError);
-  EXPECT_THROW(film_snapshot(door, submit(96, 80)), ApiError);
+  EXPECT_THROW(film_snapshot(door, JobId{7}, {}), ApiError);
+  EXPECT_THROW(film_snapshot(door, submit(96, 80), {}), ApiError);
 }
 
 /// A value of its own for each pixel.

@@ -48,6 +48,7 @@ TEST(OpenApi, DescribesTheMembersThatAreSent) {
   EXPECT_EQ(described("Counters"), names_in(to_json(RayCounters{})));
   EXPECT_EQ(described("Worker"), names_in(to_json(WorkerView{}, FarmTime{})));
   EXPECT_EQ(described("Job"), job);
+  EXPECT_EQ(described("Frame"), names_in(to_json(FrameView{})));
 }
 
 TEST(OpenApi, DefaultsOfTheSettingsAreTheirs) {

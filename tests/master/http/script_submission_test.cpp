@@ -23,7 +23,7 @@ return scene{ camera = perspective{ from = {0, 0, -9}, angle = 60 }, lights = { 
 class ScriptSubmission : public testing::Test {
  protected:
   ScriptSubmission() { put_content(folder / "balls.lua", balls); }
-  JobSpec submitted(const json& body) const { return submitted_job(body, library); }
+  JobSpec submitted(const json& body) const { return submitted_job(body, library).spec; }
   unsigned status_of(const json& body) const {
     try {
       submitted(body);

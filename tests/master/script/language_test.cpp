@@ -172,8 +172,27 @@ TEST(Language, AFrameAfterTheAnimationsLastOneIsRefused) {
     frame(30);
     ADD_FAILURE() << "there is no frame 30";
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("last frame is 29"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("last frame is 29 (from 0 s to 0.29 s, 100 frames a second)"),
+              std::string::npos)
+        << error.what();
   }
+}
+
+TEST(Language, AFrameIsTheSameWhenTheAnimationIsKnownBefore) {
+  const std::string script =
+      "return scene{ root = sphere{}:translate(time, 0, 0), animation = { start = 1, stop = 9 } }";
+  ScriptRequest request{"test.lua", script, {}, 50, {}};
+  const Scene asked = run_script(request, {}).scene;
+  request.animation = asked.animation;
+  EXPECT_EQ(run_script(request, {}).scene, asked);
+  request.frame = 201;
+  EXPECT_THROW(run_script(request, {}), SceneError);
+}
+
+TEST(Language, AnAnimationThatChangesWithTimeIsRefused) {
+  EXPECT_NE(complaint("return scene{ root = sphere{}, animation = { start = 1, stop = 9 + time } }")
+                .find("change with time"),
+            std::string::npos);
 }
 
 // Parameters. -----------------------------------------------------------------------------------------------

@@ -70,6 +70,20 @@ TEST(Reference, EveryExampleIsAScene) {
   for (const std::string& example : examples) EXPECT_EQ(complaint(example), "") << example;
 }
 
+TEST(Reference, TheAnimationMovesCameraNodesMaterialsAndLights) {
+  const auto examples = split_page().examples;
+  const auto is_animation = [](const std::string& example) {
+    return example.find("animation =") != std::string::npos;
+  };
+  const auto example = std::ranges::find_if(examples, is_animation);
+  ASSERT_NE(example, examples.end());
+  const Scene first = run(*example).scene, later = run(*example, {}, 100).scene;
+  EXPECT_NE(first.camera, later.camera);
+  EXPECT_NE(first.nodes, later.nodes);
+  EXPECT_NE(first.materials, later.materials);
+  EXPECT_NE(first.lights, later.lights);
+}
+
 TEST(Reference, EveryFunctionIsDescribedAndEveryDescribedOneIsThere) {
   std::set<std::string> known;
   for (const Signature& signature : all_signatures()) known.insert(std::string(signature.function));

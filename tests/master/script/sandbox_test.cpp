@@ -52,6 +52,18 @@ TEST(Sandbox, AnErrorComesThroughAsItIs) {
   EXPECT_EQ(complaint("error('\xff\xfe')"), "bad.lua:1: \uFFFD\uFFFD");
 }
 
+TEST(Sandbox, AnEvaluationIsStoppedWhenNobodyWantsItAnyMore) {
+  int asked = 0;
+  try {
+    evaluate({"endless.lua", "while true do end", {}, 0, {}}, {20s, 15, 64 << 20},
+             [&] { return ++asked == 3; });
+    ADD_FAILURE();
+  } catch (const SceneError& error) {
+    EXPECT_STREQ(error.what(), "endless.lua: interrupted");
+  }
+  EXPECT_EQ(asked, 3);
+}
+
 TEST(Sandbox, EndlessLoopsEndWithTheirLine) {
   expect_endless("\nwhile true do end", "2");
   expect_endless("\n::again:: goto again", "2");

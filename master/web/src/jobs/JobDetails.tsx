@@ -134,7 +134,7 @@ function Settings({ job }: { job: Job }) {
       <Row name="Seed">{s.seed}</Row>
       <Row name="Frame">
         {isAnimation(job)
-          ? `${job.frames.first} to ${job.frames.last}${job.frames.step > 1 ? `, each ${job.frames.step}th` : ""}`
+          ? `${job.frames.first} to ${job.frames.last}${job.frames.step > 1 ? `, in steps of ${job.frames.step}` : ""}`
           : s.frame}
       </Row>
       <Row name="Depth">

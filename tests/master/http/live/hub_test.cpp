@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-const LayerName picture{JobId{7}, "picture", "", false}, depth{JobId{7}, "depth", "majority", false};
+const LayerName picture{JobId{7}, {}, "picture", "", false}, depth{JobId{7}, {}, "depth", "majority", false};
 
 /// One tile of a layer of 64x64, all of this value.
 LiveNews tile_news(std::uint32_t id, float value, LayerProgress progress = LayerProgress::making) {
@@ -143,17 +143,19 @@ TEST(LiveHub, LayersThatTakeTooMuchMemoryAreGivenUpTheLastFirst) {
 
 TEST(LayersToWatch, AreReadStrictly) {
   const auto read = layers_to_watch(
-      R"({"watch":[{"job":7,"layer":"picture"},{"job":8,"layer":"depth","reduce":"mean","compat":true},{"job":7,"layer":"depth"}]})");
-  ASSERT_EQ(read.size(), 3u);
+      R"({"watch":[{"job":7,"layer":"picture"},{"job":8,"layer":"depth","reduce":"mean","compat":true},{"job":7,"layer":"depth"},{"job":7,"frame":12}]})");
+  ASSERT_EQ(read.size(), 4u);
   EXPECT_EQ(read[0], picture);
-  EXPECT_EQ(read[1], (LayerName{JobId{8}, "depth", "mean", true}));
+  EXPECT_EQ(read[1], (LayerName{JobId{8}, {}, "depth", "mean", true}));
   EXPECT_EQ(read[2], depth);
+  EXPECT_EQ(read[3], (LayerName{JobId{7}, 12, "picture", "", false}));
   EXPECT_TRUE(layers_to_watch(R"({"watch":[]})").empty());
   for (
       const char* wrong :
       {"", "7", "[]", "{}", R"({"watch":7})", R"({"watch":[7]})", R"({"watch":[{}]})",
        R"({"watch":[{"job":"7"}]})", R"({"watch":[{"job":-1}]})", R"({"watch":[{"job":1,"layer":7}]})",
-       R"({"watch":[{"job":1,"layer":"depth","compat":1}]})", R"({"watch":[],"more":1})",
+       R"({"watch":[{"job":1,"layer":"depth","compat":1}]})", R"({"watch":[{"job":1,"frame":-1}]})",
+       R"({"watch":[{"job":1,"frame":"1"}]})", R"({"watch":[],"more":1})",
        R"({"watch":[{"job":1},{"job":1},{"job":1},{"job":1},{"job":1},{"job":1},{"job":1},{"job":1},{"job":1}]})"})
     EXPECT_THROW(layers_to_watch(wrong), ApiError) << wrong;
 }

@@ -1,0 +1,78 @@
+#include "master/http/frame_feeder.h"
+
+#include "common/net/codec.h"
+
+namespace rayfarm {
+namespace {
+
+constexpr auto full_pause = std::chrono::milliseconds(200);  // until a full farm is asked again
+
+enum class Taken { yes, not_now, never };
+
+Taken brought(const FarmDoor& farm, FrameId id, std::string hash, SharedBytes scene) try {
+  const bool goes_on = farm.ask([=](Farm& f, FarmTime now) { return f.add_frame(id, hash, scene, now); });
+  return goes_on ? Taken::yes : Taken::never;
+} catch (const FarmFull&) {
+  return Taken::not_now;
+}
+
+}  // namespace
+
+FrameFeeder::FrameFeeder(const FarmDoor& farm) : farm_(farm), thread_([this] { work(); }) {}
+
+FrameFeeder::~FrameFeeder() {
+  const std::lock_guard lock(mutex_);
+  ending_ = true;
+  changed_.notify_one();
+}
+
+void FrameFeeder::feed(JobId job, ScriptRequest script, FrameRange frames) {
+  const std::lock_guard lock(mutex_);
+  feeds_.push_back({job, std::move(script), frames, 1});
+  changed_.notify_one();
+}
+
+void FrameFeeder::work() {
+  std::unique_lock lock(mutex_);
+  while (!ending_) {
+    if (feeds_.empty()) {
+      changed_.wait(lock);
+      continue;
+    }
+    Feed feed = std::move(feeds_.front());
+    feeds_.pop_front();
+    lock.unlock();
+    const bool goes_on = feed_one(feed);
+    lock.lock();
+    if (goes_on) feeds_.push_back(std::move(feed));
+  }
+}
+
+/// False when there is nothing more to bring.
+bool FrameFeeder::feed_one(Feed& feed) try {
+  feed.script.frame = feed.frames.at(feed.place);
+  const Bytes bytes = encode_scene(evaluate(feed.script, {}, [this] { return ending_.load(); }).scene);
+  const std::string hash = sha256_hex(bytes);
+  const auto scene = std::make_shared<const Bytes>(bytes);
+  Taken taken = Taken::not_now;
+  while (taken == Taken::not_now) {
+    taken = brought(farm_, {feed.job, feed.script.frame}, hash, scene);
+    std::unique_lock lock(mutex_);
+    if (taken == Taken::not_now && changed_.wait_for(lock, full_pause, [this] { return ending_.load(); }))
+      return false;
+  }
+  return taken == Taken::yes && ++feed.place < feed.frames.count();
+} catch (const FarmUnavailable&) {
+  return !ending_;
+} catch (const std::exception& error) {
+  if (!ending_) give_up(feed, error.what());
+  return false;
+}
+
+void FrameFeeder::give_up(const Feed& feed, const std::string& reason) try {
+  const std::string why = "frame " + std::to_string(feed.script.frame) + ": " + reason;
+  farm_.ask([job = feed.job, why](Farm& f, FarmTime now) { return f.fail(job, why, now); });
+} catch (const FarmUnavailable&) {  // there is nobody to be told
+}
+
+}  // namespace rayfarm

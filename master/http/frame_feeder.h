@@ -1,0 +1,50 @@
+// Brings the frames of animations that were submitted as scripts to the farm, evaluated one after the other on a
+// thread of its own: the first are rendered long before the last are known.
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "master/frame_range.h"
+#include "master/http/farm_door.h"
+#include "master/script/script.h"
+
+namespace rayfarm {
+
+/// All calls are made from any thread.
+class FrameFeeder {
+ public:
+  /// The farm outlives it.
+  explicit FrameFeeder(const FarmDoor& farm);
+  /// What has not come by then will not: the farm ends, too.
+  ~FrameFeeder();
+  FrameFeeder(const FrameFeeder&) = delete;
+  FrameFeeder& operator=(const FrameFeeder&) = delete;
+
+  /// The frames after the first one. The request names script, parameters and animation. A script that fails in one
+  /// of them fails the job. Jobs that are fed at the same time take turns.
+  void feed(JobId job, ScriptRequest script, FrameRange frames);
+
+ private:
+  struct Feed {
+    JobId job{};
+    ScriptRequest script;
+    FrameRange frames;
+    std::uint32_t place = 1;  // the next
+  };
+
+  void work();
+  bool feed_one(Feed& feed);
+  void give_up(const Feed& feed, const std::string& reason);
+
+  const FarmDoor& farm_;
+  std::mutex mutex_;  // guards feeds_
+  std::condition_variable changed_;
+  std::deque<Feed> feeds_;
+  std::atomic<bool> ending_{false};
+  std::jthread thread_;  // last: it ends before what it uses
+};
+
+}  // namespace rayfarm
