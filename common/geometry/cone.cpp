@@ -5,105 +5,14 @@
 namespace rayfarm {
 namespace {
 
-double metric(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y - a.z * b.z; }
-double sum_abs(const Vec3d& a) { return std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z); }
-
-/// The line against the double cone: g(s) = (A s^2 + 2 B s + C) / 2 at p + s n.
-struct Setting {
-  ClosestApproach<double> c;
-  Vec3d n;
-  double n_error;  // of each coordinate of n
-  double t_per_s;
-  double A, A_error, B, C, C_error, disc, disc_error;
-};
-
-Setting set_up(const LocalRay<double>& ray) {
-  Setting s;
-  s.c = closest_approach(ray);
-  s.t_per_s = std::sqrt(s.c.inverse_dd);
-  s.n = ray.direction * s.t_per_s;
-  s.n_error = ray.direction_error * s.t_per_s + 3 * unit_roundoff;
-  const Vec3d &p = s.c.p, &n = s.n, m = cross(p, n);
-  const double size = sum_abs(p);
-  s.A = metric(n, n), s.A_error = 4 * s.n_error;
-  s.B = metric(p, n);
-  s.C = metric(p, p), s.C_error = 2 * size * s.c.p_error + 4 * unit_roundoff * size * size;
-  s.disc = m.x * m.x + m.y * m.y - m.z * m.z;
-  const double m_error = 2 * (s.c.p_error + size * s.n_error);
-  s.disc_error = 2 * sum_abs(m) * m_error + 3 * m_error * m_error + 4 * unit_roundoff * size * size;
-  return s;
-}
-
-Bounded<double> at(const Setting& s, double where, double s_error) {
-  const double t = s.c.t + where * s.t_per_s;
-  return bounded(t, s.c.t_error + s_error * s.t_per_s + 4 * unit_roundoff * std::fabs(s.c.t) +
-                        (s.c.stretch + 4 * unit_roundoff) * std::fabs(where) * s.t_per_s);
-}
-
-/// A simple root: g's own error there over its slope, which is the root of the discriminant.
-Bounded<double> root_at(const Setting& s, double where, double slope) {
-  const double reach = std::fabs(where), size = sum_abs(s.c.p + s.n * where);
-  const double g_error =
-      size * (s.c.p_error + reach * (s.n_error + 4 * unit_roundoff)) + 4 * unit_roundoff * size * size;
-  return at(s, where, g_error / slope);
-}
-
-Interval<double> from(const Bounded<double>& enter) { return {enter, Interval<double>{}.leave}; }
-Interval<double> up_to(const Bounded<double>& leave) { return {Interval<double>{}.enter, leave}; }
-
-/// The line touches the cone, passes its apex, or lies along a generator, all within the error.
-NappeIntervals tangent(const Setting& s, const LocalRay<double>& ray) {
-  const Interval<double> none = empty_interval<double>();
-  if (std::fabs(s.A) > s.A_error) {
-    const Bounded<double> touch =
-        at(s, -s.B / s.A, std::sqrt(2 * s.disc_error) / std::fabs(s.A) + std::fabs(s.c.p_error));
-    if (s.A < 0) return {up_to(touch), from(touch)};
-    return {s.disc < -s.disc_error ? none : Interval<double>{touch, touch}, none};
-  }
-  if (s.C > s.C_error) return {none, none};
-  // A line in the surface counts as moved aside: then it is inside one nappe.
-  const Bounded<double> apex = at(s, 0, 2 * s.c.p_error);
-  return metric(ray.aside, s.n) < 0 ? NappeIntervals{none, from(apex)} : NappeIntervals{up_to(apex), none};
-}
-
 /// Nearer to a cap's plane than to the side.
 bool is_on_cap(const Cone& cone, const Vec3d& p) {
   const double side = std::fabs(std::sqrt(p.x * p.x + p.y * p.y) - std::fabs(p.z)) * 0.7;
   return least(std::fabs(p.z - cone.z_min), std::fabs(p.z - cone.z_max)) < side;
 }
 
-}  // namespace
-
-NappeIntervals nappe_intervals(const LocalRay<double>& ray) {
-  const Setting s = set_up(ray);
-  if (!(s.disc > s.disc_error)) return tangent(s, ray);
-  const double root = std::sqrt(s.disc), q = -(s.B + std::copysign(root, s.B));
-  const double near = s.C / q, far = q / s.A;
-  if (!(std::fabs(s.A) > s.A_error)) {  // parallel to a generator: the far root is endlessly far
-    const Bounded<double> only = root_at(s, near, root);
-    const Interval<double> none = empty_interval<double>();
-    return s.B < 0 ? NappeIntervals{none, from(only)} : NappeIntervals{up_to(only), none};
-  }
-  const Bounded<double> first = root_at(s, least(near, far), root),
-                        last = root_at(s, greatest(near, far), root);
-  if (s.A < 0) return {up_to(first), from(last)};
-  return {Interval<double>{first, last}, empty_interval<double>()};
-}
-
-Crossings crossings_of(const Cone& cone, const LocalRay<double>& ray) {
-  const Interval<double> slab = slab_interval(ray, 2, cone.z_min, cone.z_max);
-  const NappeIntervals nappes = nappe_intervals(ray);
-  Crossings found = ahead(intersection(nappes.first, slab));
-  const Crossings second = ahead(intersection(nappes.second, slab));
-  found.starts_inside = found.starts_inside != second.starts_inside;
-  for (int i = 0; i < second.count; ++i) found.add(second.at[static_cast<std::size_t>(i)]);
-  return found;
-}
-
-namespace {
-
 /// The origin is in one of the nappes, which is left first.
-Crossings inward_from_cap(const Interval<double>& slab, const NappeIntervals& nappes) {
+Crossings inward_from_cap(const Interval<double>& slab, const NappeIntervals<double>& nappes) {
   Crossings found;
   found.starts_inside = true;
   for (const Interval<double>& nappe :
@@ -118,8 +27,8 @@ Crossings inward_from_cap(const Interval<double>& slab, const NappeIntervals& na
 
 /// The other root is known: t = -2 o.d / d.d in the cone's metric.
 Crossings from_side(const Interval<double>& slab, const LocalRay<double>& ray, bool inward) {
-  const double A = metric(ray.direction, ray.direction), B = metric(ray.origin, ray.direction);
-  const double size = sum_abs(ray.direction), relative = ray.direction_error / size + 4 * unit_roundoff;
+  const double A = cone_metric(ray.direction, ray.direction), B = cone_metric(ray.origin, ray.direction);
+  const double size = sum_abs(ray.direction), relative = ray.spread / size + 4 * unit_roundoff;
   Interval<double> onward;  // inside from here on, or from where the other nappe begins
   if (std::fabs(A) > 2 * relative * size * size) {
     const double t = greatest(-2 * B / A, 0);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cassert>
 
+#include "common/math/double_double.h"
 #include "common/math/number.h"
 
 namespace rayfarm {
@@ -30,6 +31,15 @@ template <class T>
 struct Interval {
   Bounded<T> enter{T(-infinity), T(-infinity), T(-infinity)};
   Bounded<T> leave{T(infinity), T(infinity), T(infinity)};
+  bool wants_digits = false;  // rounding decided a side
+  bool is_certain = false;    // the line passes through the solid, although its bounds overlap
+
+  /// Whether it is empty, or on which side of an end the origin lies.
+  bool is_in_doubt() const {
+    const auto at_origin = [](const Bounded<T>& end) { return end.lo <= T(0) && end.hi > T(0); };
+    return wants_digits || (enter.lo <= leave.hi && leave.lo <= enter.hi) || at_origin(enter) ||
+           at_origin(leave);
+  }
 };
 
 template <class T>
@@ -41,7 +51,8 @@ template <class T>
 Interval<T> intersection(const Interval<T>& a, const Interval<T>& b) {
   return {
       {greatest(a.enter.t, b.enter.t), greatest(a.enter.lo, b.enter.lo), greatest(a.enter.hi, b.enter.hi)},
-      {least(a.leave.t, b.leave.t), least(a.leave.lo, b.leave.lo), least(a.leave.hi, b.leave.hi)}};
+      {least(a.leave.t, b.leave.t), least(a.leave.lo, b.leave.lo), least(a.leave.hi, b.leave.hi)},
+      a.wants_digits || b.wants_digits};
 }
 
 template <class T>
@@ -49,11 +60,23 @@ Bounded<T> bounded(T t, T error) {
   return {t, t - error, t + error};
 }
 
+/// In double precision, its bounds widened by what that loses.
+inline Bounded<double> rounded(const Bounded<DoubleDouble>& b) {
+  constexpr double lost = gamma_bound(2);
+  return {b.t.hi, b.lo.hi - lost * std::fabs(b.lo.hi), b.hi.hi + lost * std::fabs(b.hi.hi)};
+}
+inline Interval<double> rounded(const Interval<DoubleDouble>& i) {
+  return {rounded(i.enter), rounded(i.leave), i.wants_digits, i.enter.t < i.leave.t};
+}
+
+inline Interval<double> rounded(const Interval<double>& i) { return i; }
+
 inline Crossing crossing_at(const Bounded<double>& b) { return {b.t, greatest(b.t - b.lo, b.hi - b.t)}; }
 
 /// The crossings ahead of the origin, ascending, in and out in turn, and the side at the origin.
 struct Crossings {
   bool starts_inside = false;
+  bool wants_digits = false;  // more of them would tell more
   int count = 0;
   std::array<Crossing, 8> at;
 

@@ -114,9 +114,8 @@ bool next_filling(std::span<const CsgItem> items, CsgWorkspace& workspace, std::
 
 /// The crossings of one leaf ahead of the ray, also when the ray starts on it.
 inline Crossings crossings_ahead(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
-  const LocalRay<double> local = to_local(leaf, q);
-  if (number == q.ray.left_leaf) return crossings_from_surface(leaf, local, q.ray.into_leaf);
-  return crossings(leaf, local);
+  if (number == q.ray.left_leaf) return crossings_from_surface(leaf, to_local(leaf, q), q.ray.into_leaf);
+  return crossings(leaf, q);
 }
 
 }  // namespace rayfarm

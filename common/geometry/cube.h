@@ -8,27 +8,55 @@
 
 namespace rayfarm {
 
-/// Where the line is between the planes `low` and `high` of one axis. A direction within its own error of
-/// parallel never crosses them: the line is between them, or it is not; within its error of one of them it counts
-/// as moved aside.
+/// A line that counts as parallel to something: its point where it passes the solid, with what that may be off by.
+template <class T>
+struct PassingPoint {
+  Vec3<T> p;
+  T error;
+};
+
+template <class T>
+PassingPoint<T> passing_point(const LocalRay<T>& r) {
+  using std::fabs;
+  const Vec3<T>&o = r.origin, &d = r.direction;
+  const int along = fabs(d.x) > fabs(d.y) ? (fabs(d.x) > fabs(d.z) ? 0 : 2) : (fabs(d.y) > fabs(d.z) ? 1 : 2);
+  const T per_d = T(1) / fabs(d[along]), far = fabs(o[along]) * per_d;
+  return {o + d * -(o[along] / d[along]), r.origin_error + far * r.direction_error + T(2) * r.spread * per_d +
+                                              T(2 * unit_roundoff_of<T>) * max_abs(o)};
+}
+
+/// A line along the planes: it is between them, or it is not; within its error of one of them it counts as moved
+/// aside.
+template <class T>
+Interval<T> parallel_to_slab(const LocalRay<T>& r, int axis, T low, T high) {
+  using std::fabs;
+  const PassingPoint<T> at = passing_point(r);
+  const T x = at.p[axis], error = at.error * r.share[axis];
+  const bool in_low = fabs(x - low) <= error, in_high = fabs(x - high) <= error;
+  const bool above = in_low ? r.aside[axis] > T(0) : x > low;
+  const bool below = in_high ? r.aside[axis] < T(0) : x < high;
+  Interval<T> inside = above && below ? Interval<T>{} : empty_interval<T>();
+  inside.wants_digits = in_low || in_high || fabs(r.direction[axis]) > T(0);
+  return inside;
+}
+
+/// Where the line is between the planes `low` and `high` of one axis, which may be endlessly far. With o and d off by
+/// e and f, t = (low - o) / d is off by (e + |t| f) / (|d| - f) and three roundings.
 template <class T>
 Interval<T> slab_interval(const LocalRay<T>& r, int axis, T low, T high) {
   using std::fabs;
-  const T o = r.origin[axis], d = r.direction[axis];
-  if (none(fabs(d) > r.direction_error)) {
-    const T aside = select(r.aside[axis] > T(0), r.origin_error, -r.origin_error);
-    return o + aside > low && o + aside < high ? Interval<T>{} : empty_interval<T>();
-  }
-  const T a = (low - o) / d, b = (high - o) / d;
-  const auto error = [&](T t) {
-    return (r.origin_error + fabs(t) * r.direction_error) / (fabs(d) - r.direction_error) +
-           T(3 * unit_roundoff) * fabs(t);
+  const T o = r.origin[axis], d = r.direction[axis], share = r.share[axis];
+  if (none(fabs(d) > r.spread * share)) return parallel_to_slab(r, axis, low, high);
+  const T o_error = r.origin_error * share, d_error = r.direction_error * share;
+  const T per_d = T(1) / (fabs(d) - d_error);
+  const auto passing = [&](T plane) {
+    const T t = (plane - o) / d;
+    return bounded(t, (o_error + fabs(t) * d_error) * per_d + T(3 * unit_roundoff_of<T>) * fabs(t));
   };
-  const T first = select(d > T(0), a, b), last = select(d > T(0), b, a);
-  // An open slab (an uncapped cylinder) has no planes at infinity.
+  const T near = select(d > T(0), low, high), far = select(d > T(0), high, low);
   Interval<T> inside;
-  if (first > T(-infinity)) inside.enter = bounded(first, error(first));
-  if (last < T(infinity)) inside.leave = bounded(last, error(last));
+  if (fabs(near) < T(infinity)) inside.enter = passing(near);
+  if (fabs(far) < T(infinity)) inside.leave = passing(far);
   return inside;
 }
 
@@ -51,7 +79,7 @@ int cube_face_axis(const LocalRay<T>& r, bool entering) {
   for (int axis = 0; axis < 3; ++axis) {
     const T d = r.direction[axis], o = r.origin[axis];
     using std::fabs;
-    if (!(fabs(d) > r.direction_error)) continue;
+    if (!(fabs(d) > r.spread * r.share[axis])) continue;
     const T t = ((d > T(0)) == entering ? T(0) - o : T(1) - o) / d;
     if (entering ? t > best : t < best) best = t, face = axis;
   }

@@ -12,19 +12,30 @@ LocalRay<T> across_axis(const LocalRay<T>& r) {
   return {{r.origin.x, r.origin.y, T(0)},
           {r.direction.x, r.direction.y, T(0)},
           r.origin_error,
-          r.direction_error};
+          r.direction_error,
+          r.spread};
+}
+
+/// A line along the axis is in the tube for ever or never; within the error of the tube it counts as moved aside.
+template <class T>
+Interval<T> parallel_to_tube(const LocalRay<T>& r) {
+  using std::fabs;
+  const PassingPoint<T> at = passing_point(r);
+  const T out = at.p.x * at.p.x + at.p.y * at.p.y - T(1);
+  const T error = T(3) * at.error + T(4 * unit_roundoff_of<T>);
+  const bool in_face = fabs(out) <= error;
+  const bool inside = in_face ? at.p.x * r.aside.x + at.p.y * r.aside.y < T(0) : out < T(0);
+  Interval<T> tube = inside ? Interval<T>{} : empty_interval<T>();
+  tube.wants_digits = in_face || max_abs(across_axis(r).direction) > T(0);
+  return tube;
 }
 
 template <class T>
 Interval<T> tube_interval(const LocalRay<T>& r) {
   const LocalRay<T> flat = across_axis(r);
-  if (none(max_abs(flat.direction) > r.direction_error)) {
-    // Within the error of the tube, the line counts as moved aside.
-    const T outward = r.origin.x * r.aside.x + r.origin.y * r.aside.y;
-    const T error = T(3) * r.origin_error + T(4 * unit_roundoff);
-    const T oo = dot(flat.origin, flat.origin) + select(outward > T(0), error, -error);
-    return oo < T(1) ? Interval<T>{} : empty_interval<T>();
-  }
+  // A direction whose square is lost beside its length is as good as parallel.
+  const T least_across = r.spread + T(0x1p-100) * max_abs(r.direction);
+  if (none(max_abs(flat.direction) > least_across)) return parallel_to_tube(r);
   return interval_of(Sphere{}, flat);
 }
 
@@ -44,7 +55,7 @@ inline bool is_on_cap(const Cylinder& c, const Vec3d& p) {
 inline Bounded<double> exit_from_surface(const Cylinder& c, const LocalRay<double>& r) {
   const LocalRay<double> flat = across_axis(r);
   Interval<double> tube = tube_interval(r);
-  if (!is_on_cap(c, r.origin) && max_abs(flat.direction) > r.direction_error)
+  if (!is_on_cap(c, r.origin) && max_abs(flat.direction) > r.spread)
     tube.leave = exit_from_surface(Sphere{}, flat);
   return intersection(tube, slab_interval(r, 2, c.z_min, c.z_max)).leave;
 }

@@ -10,8 +10,9 @@ double row_sum(const glm::dmat3& m, int row) {
   return std::fabs(m[0][row]) + std::fabs(m[1][row]) + std::fabs(m[2][row]);
 }
 
-glm::dmat3 adjugate(const glm::dmat3& m) {
-  return glm::transpose(glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])));
+glm::dmat3 inverse(const glm::dmat3& m) {
+  const glm::dvec3 x = glm::cross(m[1], m[2]), y = glm::cross(m[2], m[0]), z = glm::cross(m[0], m[1]);
+  return glm::transpose(glm::dmat3(x, y, z)) * (1 / glm::dot(m[0], x));
 }
 
 /// One entry, a power of two: an axis turned by right angles or scaled without rounding.
@@ -44,50 +45,148 @@ BoundedAffine bounded(const Affine& map) {
   return b;
 }
 
+namespace {
+
+bool is_exact(const glm::dmat3& m) { return is_exact(m[0]) && is_exact(m[1]) && is_exact(m[2]); }
+
+}  // namespace
+
 BoundedAffine operator*(const BoundedAffine& a, const BoundedAffine& b) {
-  constexpr double rounding = gamma_bound(4);
+  // Turns by right angles and powers of two are not rounded; so a node that places nothing costs nothing.
+  const bool exact = is_exact(a.map.linear) || is_exact(b.map.linear);
+  const bool exact_offset = is_exact(a.map.linear) && a.map.offset == glm::dvec3(0.0);
+  const double rounding = exact ? 0 : gamma_bound(4), offset_rounding = exact_offset ? 0 : gamma_bound(4);
   const glm::dmat3 la = magnitude(a.map.linear), lb = magnitude(b.map.linear);
   const glm::dvec3 offset = glm::abs(b.map.offset);
   BoundedAffine product{a.map * b.map};
   product.linear_error = a.linear_error * (lb + b.linear_error) + la * b.linear_error + (la * lb) * rounding;
   product.offset_error = a.linear_error * (offset + b.offset_error) + la * b.offset_error + a.offset_error +
-                         (la * offset + glm::abs(a.map.offset)) * rounding;
+                         (la * offset + glm::abs(a.map.offset)) * offset_rounding;
   return product;
 }
 
-BoundedAffine inverse(const BoundedAffine& m) {
-  const glm::dmat3& l = m.map.linear;
-  const double determinant = glm::dot(l[0], glm::cross(l[1], l[2]));
-  BoundedAffine out;
-  out.map.linear = adjugate(l) * (1 / determinant);
-  out.map.offset = -(out.map.linear * m.map.offset);
-  // First order: the inverse moves by A E A; its own rounding is that of solving with |A||L||A|.
-  const glm::dmat3 a = magnitude(out.map.linear), size = magnitude(l);
-  out.linear_error = a * m.linear_error * a + (a * size * a) * gamma_bound(8);
-  const glm::dvec3 offset = glm::abs(m.map.offset);
-  out.offset_error = out.linear_error * offset + a * m.offset_error + (a * offset) * gamma_bound(4);
-  return out;
+namespace {
+
+using PreciseVec = Vec3<DoubleDouble>;
+
+PreciseVec precise(const Vec3d& v) { return {{v.x}, {v.y}, {v.z}}; }
+Vec3d absolute(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+/// The offset that takes the local origin's place in world space to 0, for the rounded rows that they are: then what
+/// the rows are off by matters over the solid's size only.
+void set_offset(Leaf& leaf, const glm::dvec3& centre) {
+  for (int i = 0; i < 3; ++i) {
+    const DoubleDouble offset = -dot(precise(leaf.row[i]), precise(vec(centre)));
+    leaf.offset[i] = offset.hi, leaf.precise.offset_rest[i] = offset.lo;
+  }
 }
 
+/// By how much row i differs from that of the exact inverse, in each component of row * L.
+Vec3d residual_of(const Vec3d& row, int i, const glm::dmat3& world_from_local) {
+  Vec3d residual;
+  for (int k = 0; k < 3; ++k) {
+    const DoubleDouble product = dot(precise(row), precise(vec(world_from_local[k])));
+    residual[k] = std::fabs((product - DoubleDouble{k == i ? 1.0 : 0.0}).hi);
+  }
+  return residual;
+}
+
+bool is_endless(const Solid& solid) {
+  const auto reaches_out = [](const auto& s, const Vec3d& axis) {
+    const Extent e = extent_of(s, axis);
+    return e.low == -infinity || e.high == infinity;
+  };
+  return std::visit(
+      [&](const auto& s) {
+        return reaches_out(s, {1, 0, 0}) || reaches_out(s, {0, 1, 0}) || reaches_out(s, {0, 0, 1});
+      },
+      solid);
+}
+
+/// Bounds on one local axis, of what is not rounding: the solid's place, and a direction per its size in the world.
+struct Uncertainty {
+  double place, turn;
+};
+
+/// A local point p is seen at p - row E p - row e - r p: E and e the map's own uncertainty, r what the row lacks of the
+/// exact inverse.
+Uncertainty uncertainty(const Vec3d& row, const Vec3d& residual, const BoundedAffine& m, double size,
+                        const Vec3d& stretch) {
+  const Vec3d reach = absolute(row);
+  Vec3d at_size, of_direction;
+  for (int j = 0; j < 3; ++j) {
+    at_size[j] = row_sum(m.linear_error, j) * size + m.offset_error[j];
+    of_direction[j] = dot(row_of(m.linear_error, j), stretch);
+  }
+  return {dot(reach, at_size) + (residual.x + residual.y + residual.z) * size,
+          dot(reach, of_direction) + dot(residual, stretch)};
+}
+
+/// The largest of each, and into share what part of it each axis has.
+double largest(const Vec3d& of_axes, Vec3d& share) {
+  const double most = max_abs(of_axes);
+  for (int i = 0; i < 3; ++i)
+    if (most > 0) share[i] = greatest(share[i], of_axes[i] / most);
+  return most;
+}
+
+}  // namespace
+
 Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local) {
-  const BoundedAffine local = inverse(world_from_local);
-  Leaf leaf{};
-  leaf.solid = solid;
-  leaf.offset = vec(local.map.offset);
+  const glm::dmat3 rows = inverse(world_from_local.map.linear);
+  const glm::dvec3& centre = world_from_local.map.offset;
+  const double size = std::visit([](const auto& s) { return size_of(s); }, solid);
   // A line in a face of two solids must be inside one of them: both see it moved to the same side. The direction
   // is one that no face is likely to hold.
   const Vec3d world_aside{0.8017, 0.5345, 0.2673};
-  constexpr double rounding = gamma_bound(4);
+  Leaf leaf{};
+  leaf.solid = solid;
+  Vec3d stretch;
   for (int i = 0; i < 3; ++i) {
-    leaf.row[i] = row_of(local.map.linear, i);
+    leaf.row[i] = row_of(rows, i);
     leaf.aside[i] = dot(leaf.row[i], world_aside);
-    const double stretch = row_sum(local.map.linear, i);
-    leaf.stretch = greatest(leaf.stretch, stretch);
-    leaf.error_per_size = greatest(leaf.error_per_size, row_sum(local.linear_error, i) + rounding * stretch);
-    leaf.error_constant =
-        greatest(leaf.error_constant, local.offset_error[i] + rounding * std::fabs(local.map.offset[i]));
+    stretch[i] = row_sum(rows, i);
   }
+  set_offset(leaf, centre);
+
+  const bool endless = is_endless(solid);
+  Vec3d place, placed, per_size, turn, spread;
+  Leaf::Precise& precise = leaf.precise;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3d residual = residual_of(leaf.row[i], i, world_from_local.map.linear);
+    const Uncertainty u = uncertainty(leaf.row[i], residual, world_from_local, size, stretch);
+    place[i] = u.place + (endless ? u.turn * max_abs(vec(centre)) : 0);
+    turn[i] = u.turn;
+    const double rounding = gamma_bound(4) * stretch[i];
+    placed[i] = place[i] + gamma_bound(2) * std::fabs(leaf.offset[i]);
+    per_size[i] = rounding + (endless ? u.turn : 0);
+    spread[i] = rounding + u.turn;
+  }
+  precise.origin_error = max_abs(place);
+  precise.spread_per_size = max_abs(turn);
+  precise.error_per_size = endless ? precise.spread_per_size : 0;
+  leaf.origin_error = largest(placed, leaf.share);
+  leaf.error_per_size = largest(per_size, leaf.share);
+  leaf.spread_per_size = largest(spread, leaf.share);
+  leaf.stretch = largest(stretch, leaf.share);
   return leaf;
+}
+
+LocalRay<DoubleDouble> to_local_precisely(const Leaf& leaf, const RayQuery& q) {
+  LocalRay<DoubleDouble> local;
+  const PreciseVec o = precise(q.ray.origin), d = precise(q.ray.direction);
+  for (int i = 0; i < 3; ++i) {
+    const PreciseVec row = precise(leaf.row[i]);
+    local.origin[i] = dot(row, o) + DoubleDouble{leaf.offset[i], leaf.precise.offset_rest[i]};
+    local.direction[i] = dot(row, d);
+  }
+  const Leaf::Precise& of = leaf.precise;
+  local.origin_error = {of.error_per_size * q.origin_size + of.origin_error +
+                        leaf.stretch * q.ray.origin_error};
+  local.direction_error = {of.error_per_size * q.direction_size};
+  local.spread = {(of.spread_per_size + 0x1p-1000) * q.direction_size};  // a quotient must not overflow
+  local.aside = precise(leaf.aside), local.share = precise(leaf.share);
+  return local;
 }
 
 namespace {
@@ -135,13 +234,29 @@ Box moved(const Box& box, const BoundedAffine& by) {
   return result;
 }
 
-Crossings crossings(const Leaf& leaf, const LocalRay<double>& ray) {
+Interval<double> settled_interval(const Leaf& leaf, const RayQuery& q) {
+  const LocalRay<DoubleDouble> ray = to_local_precisely(leaf, q);
   return std::visit(
       [&]<class S>(const S& solid) {
         if constexpr (ConvexSolid<S>)
-          return ahead(interval_of(solid, ray));
+          return rounded(interval_of(solid, ray));
         else
-          return crossings_of(solid, ray);
+          return Interval<double>{};
+      },
+      leaf.solid);
+}
+
+Crossings crossings(const Leaf& leaf, const RayQuery& q) {
+  const LocalRay<double> ray = to_local(leaf, q);
+  return std::visit(
+      [&]<class S>(const S& solid) {
+        if constexpr (ConvexSolid<S>) {
+          const Interval<double> interval = interval_of(solid, ray);
+          return ahead(interval.is_in_doubt() ? settled_interval(leaf, q) : interval);
+        } else {
+          const Crossings found = crossings_of(solid, ray);
+          return found.wants_digits ? crossings_of(solid, to_local_precisely(leaf, q)) : found;
+        }
       },
       leaf.solid);
 }

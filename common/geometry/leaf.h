@@ -8,6 +8,7 @@
 #include "common/geometry/solids.h"
 #include "common/geometry/surface_point.h"
 #include "common/math/affine.h"
+#include "common/math/double_double.h"
 
 namespace rayfarm {
 
@@ -21,18 +22,28 @@ struct BoundedAffine {
 /// A node's own transform: as written in a script it is a product of a few rotations and scales already.
 BoundedAffine bounded(const Affine& map);
 BoundedAffine operator*(const BoundedAffine& a, const BoundedAffine& b);
-BoundedAffine inverse(const BoundedAffine& m);
 
 /// What every ray test reads.
+///
+/// What is uncertain about the transform moves the solid as a whole: that is a constant of the leaf. Only rounding
+/// grows with the ray's own size; of an endless solid the transform's uncertainty does too. All bounds are on the
+/// largest component of a local vector, per largest component of the world's.
 struct Leaf {
   Vec3d row[3];  // local = row * world + offset
   Vec3d offset;
-  double error_per_size;  // bound on |local error| = error_per_size * |world| + error_constant, largest
-                          // components
-  double error_constant;
-  Vec3d aside;     // where a point goes that is moved a little in world space, the same way for all leaves
-  double stretch;  // largest |local| for a world vector with components up to 1
+  double origin_error;     // wherever the line is at the solid
+  double error_per_size;   // of a local vector, from rounding; what adds up along a ray
+  double spread_per_size;  // of a direction in all
+  double stretch;          // largest |local| for a world vector with components up to 1
+  Vec3d share;             // of each axis in these four, at most 1
+  Vec3d aside;  // where a point goes that is moved a little in world space, the same way for all leaves
   Solid solid;
+
+  /// The same with nothing rounded, for rays that double precision cannot tell from others.
+  struct Precise {
+    Vec3d offset_rest;  // the exact offset less `offset`
+    double origin_error, error_per_size, spread_per_size;
+  } precise;
 };
 
 Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local);
@@ -48,25 +59,37 @@ inline LocalRay<double> to_local(const Leaf& leaf, const RayQuery& q) {
   return {{dot(leaf.row[0], o) + leaf.offset.x, dot(leaf.row[1], o) + leaf.offset.y,
            dot(leaf.row[2], o) + leaf.offset.z},
           {dot(leaf.row[0], d), dot(leaf.row[1], d), dot(leaf.row[2], d)},
-          leaf.error_per_size * q.origin_size + leaf.error_constant + leaf.stretch * q.ray.origin_error,
+          leaf.error_per_size * q.origin_size + leaf.origin_error + leaf.stretch * q.ray.origin_error,
           leaf.error_per_size * q.direction_size,
-          leaf.aside};
+          leaf.spread_per_size * q.direction_size,
+          leaf.aside,
+          leaf.share};
 }
 
+/// In twice the digits: what is left of the error is that of the transform and of the ray's own origin.
+LocalRay<DoubleDouble> to_local_precisely(const Leaf& leaf, const RayQuery& q);
+
+/// Where the line is inside a convex leaf that double precision leaves in doubt: asked again with twice the digits.
+/// What then is in doubt is so for the transform's sake, and goes by the nominal one.
+Interval<double> settled_interval(const Leaf& leaf, const RayQuery& q);
+
 /// Where the line is inside the leaf; none for a solid that is not convex: it has only a list of crossings.
-inline std::optional<Interval<double>> convex_interval(const Leaf& leaf, const LocalRay<double>& ray) {
+inline std::optional<Interval<double>> convex_interval(const Leaf& leaf, const RayQuery& q) {
+  const LocalRay<double> ray = to_local(leaf, q);
   return std::visit(
       [&]<class S>(const S& solid) -> std::optional<Interval<double>> {
-        if constexpr (ConvexSolid<S>)
-          return interval_of(solid, ray);
-        else
+        if constexpr (ConvexSolid<S>) {
+          const Interval<double> interval = interval_of(solid, ray);
+          return interval.is_in_doubt() ? settled_interval(leaf, q) : interval;
+        } else {
           return std::nullopt;
+        }
       },
       leaf.solid);
 }
 
 /// The leaf's crossings ahead of the ray.
-Crossings crossings(const Leaf& leaf, const LocalRay<double>& ray);
+Crossings crossings(const Leaf& leaf, const RayQuery& q);
 /// The same for a ray that starts on this leaf's surface: the crossing there is known and left out.
 Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, bool inward);
 

@@ -53,13 +53,16 @@ struct RayQuery {
   double origin_size, direction_size;  // largest component
 };
 
-/// A ray in a leaf's local space, with bounds on each component's error (transform chain and rounding
-/// included).
+/// A ray in a leaf's local space, with bounds on each component's error, rounding and the transform's uncertainty
+/// included. Errors of single axes are `share` of these.
 template <class T>
 struct LocalRay {
   Vec3<T> origin{}, direction{};
-  T origin_error{}, direction_error{};
-  Vec3<T> aside{};  // see Leaf::aside
+  T origin_error{};     // of the line wherever it is at the solid, but for the next:
+  T direction_error{};  // adds up along the line from the origin
+  T spread{};           // of the direction in all: a smaller component may as well be none
+  Vec3<T> aside{};      // see Leaf::aside
+  Vec3<T> share{T(1), T(1), T(1)};
 };
 
 }  // namespace rayfarm

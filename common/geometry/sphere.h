@@ -17,14 +17,18 @@ template <class T>
 struct ClosestApproach {
   T t{}, t_error{};
   Vec3<T> p{};
-  T p_error{};     // of each coordinate, across the line
+  T p_error{};     // of each coordinate
   T stretch{};     // bound on the relative error of lengths along the line, from the direction's
   T inverse_dd{};  // 1 / dot(direction, direction)
 };
 
+/// With u the unit roundoff: `rough` is off by at most 2u |o| + u |p| a coordinate, the second projection moves it
+/// along the line only, so p is off by 6u max|o|, and t by as much along d. A direction that is off by e turns the
+/// line about its origin: p by |t| e, t by |t| e |d|_1 / dd.
 template <class T>
 ClosestApproach<T> closest_approach(const LocalRay<T>& ray) {
   using std::fabs;
+  constexpr double u = unit_roundoff_of<T>;
   const Vec3<T>&o = ray.origin, &d = ray.direction;
   const T inverse_dd = T(1) / dot(d, d);
   const T first = -(dot(o, d) * inverse_dd);
@@ -33,13 +37,10 @@ ClosestApproach<T> closest_approach(const LocalRay<T>& ray) {
   const T t = first + second;
   const Vec3<T> p = rough + d * second;
 
-  const T size = max_abs(o), d_sum = fabs(d.x) + fabs(d.y) + fabs(d.z);
-  const T p_error = ray.origin_error + fabs(t) * ray.direction_error + T(6 * unit_roundoff) * size;
-  // t = -o.d/dd: o moves by its error, d by its own (in the product and in dd).
-  const T moved =
-      (ray.origin_error + T(6 * unit_roundoff) * size) * d_sum + T(9) * ray.direction_error * size;
-  const T t_error = moved * inverse_dd + T(6 * unit_roundoff) * fabs(t);
-  return {t, t_error, p, p_error, ray.direction_error * d_sum * inverse_dd, inverse_dd};
+  const T p_error = ray.origin_error + fabs(t) * ray.direction_error + T(6 * u) * max_abs(o);
+  const T per_length = sum_abs(d) * inverse_dd, stretch = ray.spread * per_length;
+  const T t_error = p_error * per_length + sum_abs(p) * ray.spread * inverse_dd + T(4 * u) * fabs(t);
+  return {t, t_error, p, p_error, stretch, inverse_dd};
 }
 
 /// Where the line is inside the unit sphere, given its closest approach: sqrt(disc / dd) to both sides.
@@ -47,25 +48,23 @@ template <class T>
 Interval<T> interval_about(const ClosestApproach<T>& c, T disc, T disc_error) {
   using std::fabs, std::sqrt;
   if (none(disc > -disc_error)) return empty_interval<T>();
-  // Within its error of zero the line is tangent: an in-and-out pair at the closest approach that covers
-  // itself.
+  constexpr double u = unit_roundoff_of<T>;
+  // Within its error of zero the line is tangent: an in-and-out pair that covers itself and any that the exact
+  // discriminant, at most twice that error, has.
   const auto tangent = disc <= disc_error;
   const T root = sqrt(select(tangent, T(2) * disc_error, disc) * c.inverse_dd);
-  const T half = select(tangent, T(0), root);
+  const T half = select(tangent, sqrt(greatest(disc, T(0)) * c.inverse_dd), root);
   const T half_error = select(tangent, root, disc_error * c.inverse_dd / root);
-  const T error =
-      c.t_error + half_error + T(4 * unit_roundoff) * fabs(c.t) + (c.stretch + T(4 * unit_roundoff)) * half;
+  const T error = c.t_error + half_error + T(2 * u) * fabs(c.t) + (c.stretch + T(4 * u)) * half;
   return {bounded(c.t - half, error), bounded(c.t + half, error)};
 }
 
 template <class T>
 Interval<T> interval_of(const Sphere&, const LocalRay<T>& ray) {
-  using std::fabs;
   const ClosestApproach<T> c = closest_approach(ray);
   const T pp = dot(c.p, c.p);
-  const T p_sum = fabs(c.p.x) + fabs(c.p.y) + fabs(c.p.z);
-  const T disc_error =
-      T(2) * p_sum * c.p_error + T(3) * c.p_error * c.p_error + T(4 * unit_roundoff) * (T(1) + pp);
+  const T disc_error = T(2) * sum_abs(c.p) * c.p_error + T(3) * c.p_error * c.p_error +
+                       T(4 * unit_roundoff_of<T>) * (T(1) + pp);
   return interval_about(c, T(1) - pp, disc_error);
 }
 

@@ -7,196 +7,275 @@
 namespace rayfarm {
 namespace {
 
-/// The torus and the line in units of R + r, the line parametrised by length u from its closest approach.
-struct Setting {
-  double R, r;                // R + r = 1
-  Vec3d foot, along;          // closest approach to the centre; unit direction
-  double stretch;             // relative error of u, from the direction's
-  double foot_error;          // of each coordinate of foot
-  double reach;               // |u| <= reach: beyond it the line is outside
-  double t_of_foot, t_error;  // t = t_of_foot + u * t_per_u
-  double t_per_u;
+/// The torus and the line in units of R + r, the line parametrised by length u from near its closest approach.
+template <class T>
+struct TorusLine {
+  T R, r;                         // R + r = 1
+  Vec3<T> foot, along;            // a point near the closest approach to the centre; unit direction
+  T foot_error;                   // of each coordinate of foot
+  T spread;                       // of each coordinate of along, and of its length
+  T low, high;                    // outside of low < u < high the line is outside
+  T t_of_foot, t_error, t_per_u;  // t = t_of_foot + u * t_per_u
 };
 
-struct Value {
-  double f, error;
-};
+template <class T>
+T square(T x) {
+  return x * x;
+}
 
-Vec3d at(const Setting& s, double u) { return s.foot + s.along * u; }
+/// o + d t, rounded once.
+double moved_along(double o, double d, double t) { return std::fma(d, t, o); }
+DoubleDouble moved_along(const DoubleDouble& o, const DoubleDouble& d, const DoubleDouble& t) {
+  return o + d * t;
+}
+template <class T>
+Vec3<T> moved_along(const Vec3<T>& o, const Vec3<T>& d, T t) {
+  return {moved_along(o.x, d.x, t), moved_along(o.y, d.y, t), moved_along(o.z, d.z, t)};
+}
 
-/// ((rho - R)^2 + z^2 - r^2) ((rho + R)^2 + z^2 - r^2): negative inside. The second factor is positive for
-/// ring tori and is then left out.
-Value implicit(const Setting& s, double u) {
-  const Vec3d p = at(s, u);
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-  const double moved = s.foot_error + std::fabs(u) * s.stretch + 8 * unit_roundoff;  // of rho - R and of z
-  const auto factor = [&](double q) {
-    return Value{(q - s.r) * (q + s.r) + p.z * p.z, 2 * (std::fabs(q) + std::fabs(p.z)) * moved +
-                                                        6 * unit_roundoff * s.r * s.r + 2 * moved * moved};
+/// Cuts off what lies above or below the torus. False when nothing is left, or only what lies in its hole.
+template <class T>
+bool cut_to_bounds(TorusLine<T>& l, T slack) {
+  using std::fabs;
+  const T z = l.foot.z, dz = l.along.z, top = l.r + slack;
+  const T rise = l.high * fabs(dz);  // low = -high
+  if (fabs(z) > top + rise) return false;
+  const T z_first = select(dz > T(0), z, -z);
+  if (top + z_first < rise) l.low = -(top + z_first) / fabs(dz);
+  if (top - z_first < rise) l.high = (top - z_first) / fabs(dz);
+  const T hole = l.R - l.r - slack;
+  const auto in_hole = [&](T u) {
+    const T x = l.foot.x + l.along.x * u, y = l.foot.y + l.along.y * u;
+    return hole > T(0) && x * x + y * y < hole * hole;
   };
-  const Value ring = factor(rho - s.R);
-  if (s.R >= s.r) return ring;
-  const Value lemon = factor(rho + s.R);
-  return {ring.f * lemon.f, std::fabs(ring.f) * lemon.error + std::fabs(lemon.f) * ring.error};
+  return !(in_hole(l.low) && in_hole(l.high));
 }
 
-/// d implicit / du.
-double slope(const Setting& s, double u) {
-  const Vec3d p = at(s, u);
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-  const double rho_u = rho > 0 ? (p.x * s.along.x + p.y * s.along.y) / rho : 0;
-  const auto factor = [&](double q) { return (q - s.r) * (q + s.r) + p.z * p.z; };
-  const auto factor_u = [&](double q) { return 2 * (q * rho_u + p.z * s.along.z); };
-  const double a = rho - s.R, b = rho + s.R;
-  if (s.R >= s.r) return factor_u(a);
-  return factor_u(a) * factor(b) + factor(a) * factor_u(b);
+/// False when the line misses the torus for certain. A line that runs from the ray's origin by t d has its foot
+/// right to a few ulp of the foot itself, since o + t d is rounded once.
+template <class T>
+bool set_up(const Torus& torus, const LocalRay<T>& ray, TorusLine<T>& l) {
+  using std::fabs, std::sqrt;
+  constexpr double u = unit_roundoff_of<T>;
+  const T unit = T(1) / (T(torus.R) + T(torus.r));
+  const Vec3<T>&o = ray.origin, &d = ray.direction;
+  const T inverse_dd = T(1) / dot(d, d);
+  const T first = -(dot(o, d) * inverse_dd);
+  const Vec3<T> rough = moved_along(o, d, first);
+  const T second = -(dot(rough, d) * inverse_dd);
+  const Vec3<T> foot = (rough + d * second) * unit;
+  const T bb = dot(foot, foot), far = fabs(first);
+  l.foot_error = (ray.origin_error + far * ray.direction_error) * unit + T(4 * u);
+  const T slack = T(8) * l.foot_error;
+  if (!(bb < T(1) + slack)) return false;
+
+  const T length = sqrt(inverse_dd);
+  l.R = T(torus.R) * unit, l.r = T(torus.r) * unit;
+  l.foot = foot, l.along = d * length;
+  l.spread = ray.spread * length + T(4 * u);
+  l.high = sqrt(T(1) + slack - bb) + slack, l.low = -l.high;
+  l.t_of_foot = first + second, l.t_per_u = length / unit;
+  l.t_error = T(2 * u) * far + (l.foot_error + T(4 * u)) * l.t_per_u;
+  return cut_to_bounds(l, slack + T(2) * l.spread);
 }
 
-/// A zero of f between a and b, f(a) and f(b) of the given opposite signs: Newton steps, bisection where they
-/// leave the bracket or do not halve it.
-template <class F, class Derivative>
-double zero_between(double a, double b, bool a_negative, F f, Derivative derivative) {
-  double x = 0.5 * (a + b);
-  for (int i = 0; i < 200; ++i) {
-    const double fx = f(x);
-    if (fx == 0) return x;
-    ((fx < 0) == a_negative ? a : b) = x;
-    const double newton = x - fx / derivative(x);
-    const double middle = 0.5 * (a + b);
-    const double next = newton > least(a, b) && newton < greatest(a, b) ? newton : middle;
-    if (next == x || middle == a || middle == b) return next;
-    // Newton closes in from one side; a step of a few ulp past it closes the bracket.
+/// f = (rho - R)^2 + z^2 - r^2, for a spindle torus times the same of rho + R: negative inside.
+template <class T>
+struct Sample {
+  T u, f, error;
+  T rho, rho_slope;  // distance from the axis; times df/du, which spares a division
+  T bend;            // bound on rho |d2f/du2|
+  bool is_uncertain() const {
+    using std::fabs;
+    return fabs(f) <= error;
+  }
+};
+
+/// Of f's factors, for q = rho -+ R.
+template <class T>
+struct Factor {
+  T f, error, rho_slope;
+};
+
+/// With p off by m a coordinate, f is off by 2 (|q| + |z|) m + 2 m^2, and by the roundings of its own terms.
+template <class T>
+Sample<T> sample(const TorusLine<T>& l, T u) {
+  using std::fabs, std::sqrt;
+  constexpr double roundoff = unit_roundoff_of<T>;
+  const Vec3<T> p = l.foot + l.along * u;
+  const T rho = sqrt(p.x * p.x + p.y * p.y);
+  const T half_slope = p.x * l.along.x + p.y * l.along.y, rise = rho * p.z * l.along.z;
+  const T moved = T(1.5) * (l.foot_error + fabs(u) * l.spread) + T(6 * roundoff);
+  const auto factor = [&](T q) -> Factor<T> {
+    return {(q - l.r) * (q + l.r) + p.z * p.z,
+            T(2) * (fabs(q) + fabs(p.z) + moved) * moved + T(4 * roundoff) * (l.r * l.r),
+            T(2) * (q * half_slope + rise)};
+  };
+  const T q = rho - l.R, bend = T(2) * (rho + fabs(q));
+  const Factor<T> ring = factor(q);
+  if (l.R >= l.r) return {u, ring.f, ring.error, rho, ring.rho_slope, bend};
+  const Factor<T> lemon = factor(rho + l.R);
+  const T error = fabs(ring.f) * lemon.error + (fabs(lemon.f) + lemon.error) * ring.error;
+  return {u, ring.f * lemon.f, error, rho, ring.rho_slope * lemon.f + ring.f * lemon.rho_slope, T(12)};
+}
+
+/// The quartic f times the positive factor it lacks is u^4 + 2 p u^2 + 4 q u + its value at 0.
+template <class T>
+struct CriticalPoints {
+  T p, q;
+  int count = 0;
+  T u[3];
+};
+
+/// The positive zero of x^3 + p x - q, q > 0, of largest size: Newton's steps from above it, which never pass it.
+template <class T>
+T outer_zero(T p, T q) {
+  using std::sqrt;
+  // Newton's step squares what is left, and once more f does, which is stationary there.
+  constexpr double enough = unit_roundoff_of < T >> 0x1p-60 ? 0x1p-14 : 0x1p-27;
+  const T top = T(2);  // p and q are at most about 2
+  T x = p < T(0) ? T(2) * sqrt(-p / T(3)) : p * top > q ? q / p : top;
+  for (int i = 0; i < 100; ++i) {
+    const T slope = T(3) * x * x + p;
+    const T next = slope > T(0) ? least(x - ((x * x + p) * x - q) / slope, top) : top;
+    const bool is_close = i > 0 && x - next <= T(enough) * x;
     x = next;
-    if (std::fabs(next - a) + std::fabs(next - b) > 0.5 * std::fabs(b - a) && i % 3 == 2) x = middle;
+    if (is_close) break;
   }
   return x;
 }
 
-struct CriticalPoints {
-  int count = 0;
-  double u[3];
-};
-
-/// Where the quartic is stationary: zeros of u^3 + p u + q with -reach < u < reach.
-CriticalPoints critical_points(const Setting& s) {
-  const double across = s.along.x * s.along.x + s.along.y * s.along.y;
-  const double mixed = s.foot.x * s.along.x + s.foot.y * s.along.y;
-  const double p = dot(s.foot, s.foot) + (s.R - s.r) * (s.R + s.r) - 2 * s.R * s.R * across;
-  const double q = -2 * s.R * s.R * mixed;
-  const auto cubic = [&](double u) { return (u * u + p) * u + q; };
-  const auto cubic_u = [&](double u) { return 3 * u * u + p; };
-
-  double ends[4] = {-s.reach, -s.reach, s.reach, s.reach};
-  if (p < 0) {
-    const double turn = std::sqrt(-p / 3);
-    ends[1] = greatest(-turn, -s.reach), ends[2] = least(turn, s.reach);
+/// Where the quartic f's line is stationary, between low and high, ascending: zeros of u^3 + p u + q. The two others
+/// follow from the outermost.
+template <class T>
+CriticalPoints<T> critical_points(const TorusLine<T>& l) {
+  using std::fabs, std::sqrt;
+  const T RR = T(2) * l.R * l.R;
+  const T p =
+      dot(l.foot, l.foot) + (l.R - l.r) * (l.R + l.r) - RR * (l.along.x * l.along.x + l.along.y * l.along.y);
+  const T q = -RR * (l.foot.x * l.along.x + l.foot.y * l.along.y);
+  CriticalPoints<T> found{p, q, 0, {}};
+  const auto add = [&](T u) {
+    if (u > l.low && u < l.high) found.u[found.count++] = u;
+  };
+  const T x = fabs(q) > T(0) ? outer_zero(p, fabs(q)) : sqrt(greatest(-p, T(0)));
+  const T outer = q > T(0) ? -x : x, rest = T(-3) * x * x - T(4) * p;
+  if (outer < T(0)) add(outer);
+  if (rest > T(0)) {
+    const T root = sqrt(rest);
+    add((-outer - root) / T(2)), add((-outer + root) / T(2));
   }
-  CriticalPoints found;
-  for (int i = 0; i < 3; ++i) {
-    const double a = ends[i], b = ends[i + 1];
-    if (!(a < b)) continue;
-    const bool a_negative = cubic(a) < 0, b_negative = cubic(b) < 0;
-    if (a_negative != b_negative) found.u[found.count++] = zero_between(a, b, a_negative, cubic, cubic_u);
-  }
+  if (!(outer < T(0))) add(outer);
   return found;
 }
 
-bool set_up(const Torus& torus, const LocalRay<double>& ray, Setting& s) {
-  const double unit = 1 / (torus.R + torus.r);
-  const LocalRay<double> scaled{ray.origin * unit, ray.direction * unit,
-                                ray.origin_error * unit + unit_roundoff * max_abs(ray.origin) * unit,
-                                ray.direction_error * unit + unit_roundoff * max_abs(ray.direction) * unit};
-  const ClosestApproach<double> c = closest_approach(scaled);
-  const double bb = dot(c.p, c.p);
-  const double slack = 8 * (c.p_error + unit_roundoff);  // outside for certain beyond 1 + slack
-  if (bb > 1 + slack) return false;
-  s = {torus.R * unit,
-       torus.r * unit,
-       c.p,
-       scaled.direction * std::sqrt(c.inverse_dd),
-       c.p_error,
-       c.stretch,
-       std::sqrt(1 + slack - bb) + slack,
-       c.t,
-       c.t_error,
-       std::sqrt(c.inverse_dd)};
-  return true;
+/// About a stationary point s the quartic is f(s) + v^2 (A + B v + v^2), A = 6 s^2 + 2 p, B = 4 s: where that is zero.
+template <class T>
+T first_guess(const TorusLine<T>& l, T p, const Sample<T>& inside, T outside) {
+  using std::fabs, std::sqrt;
+  const T sum = inside.rho + l.R, lemon = (sum - l.r) * (sum + l.r) + square(l.foot.z + l.along.z * inside.u);
+  const T deep = l.R >= l.r ? -inside.f * lemon : -inside.f;
+  const T s = inside.u, A = T(6) * s * s + T(2) * p, B = outside > s ? T(4) * s : T(-4) * s;
+  T v = outside > s ? outside - s : s - outside;
+  for (int i = 0; i < 2; ++i) {
+    const T rise = i == 0 ? A : A + (B + v) * v;
+    if (rise * v * v > deep) v = sqrt(deep / rise);
+  }
+  return outside > s ? s + v : s - v;
 }
 
-struct Knot {  // an end of a monotone piece
-  double u;
-  Value value;
-  bool negative() const { return value.f < 0; }
-  bool is_uncertain() const { return std::fabs(value.f) <= value.error; }
-};
+/// The zero between a stationary point inside and one (or an end) outside: Newton's steps, halving where they leave
+/// the bracket, until what a step leaves is less than f's error.
+template <class T>
+Sample<T> zero_between(const TorusLine<T>& l, T p, const Sample<T>& inside, T outside) {
+  using std::fabs;
+  T negative = inside.u, positive = outside;
+  Sample<T> s = sample(l, first_guess(l, p, inside, outside));
+  for (int i = 0; i < 200; ++i) {
+    (s.f < T(0) ? negative : positive) = s.u;
+    const T step = s.f * s.rho / s.rho_slope, newton = s.u - step;
+    const bool within = newton > least(negative, positive) && newton < greatest(negative, positive);
+    const T next = within ? newton : (negative + positive) / T(2);
+    if (next == s.u) break;
+    if (within && s.bend * step * step <= s.error * s.rho) {
+      s.u = next, s.f = s.error;
+      break;
+    }
+    s = sample(l, next);
+  }
+  return s;
+}
 
-Crossing crossing_of(const Setting& s, double u, double u_error) {
-  const double t = s.t_of_foot + u * s.t_per_u;
-  const double rounding =
-      4 * unit_roundoff * std::fabs(s.t_of_foot) + (s.stretch + 4 * unit_roundoff) * std::fabs(u) * s.t_per_u;
-  return {t, s.t_error + u_error * s.t_per_u + rounding};
+Bounded<double> rounded(const Bounded<double>& b) { return b; }
+
+template <class T>
+Crossing crossing_of(const TorusLine<T>& l, T u, T u_error) {
+  using std::fabs;
+  constexpr double roundoff = unit_roundoff_of<T>;
+  const T t = l.t_of_foot + u * l.t_per_u;
+  const T error = l.t_error + (u_error + fabs(u) * l.spread) * l.t_per_u + T(2 * roundoff) * fabs(t);
+  return crossing_at(rounded(bounded(t, error)));
 }
 
 /// How far a stationary point within its error of zero can be from a crossing: sqrt(2 error / |f''|), at most
 /// the distance to the nearer neighbour.
-double tangent_reach(const Setting& s, const Knot& knot, double limit) {
-  const double step = 0.25 * limit;
-  const double bend = std::fabs(slope(s, knot.u + step) - slope(s, knot.u - step)) / (2 * step);
-  return bend > 0 ? least(2 * std::sqrt(knot.value.error / bend), limit) : limit;
+template <class T>
+T tangent_reach(const TorusLine<T>& l, const Sample<T>& at, T limit) {
+  using std::fabs, std::sqrt;
+  const T step = limit / T(4);
+  const Sample<T> before = sample(l, at.u - step), behind = sample(l, at.u + step);
+  const T bend = fabs(behind.rho_slope / behind.rho - before.rho_slope / before.rho) / (T(2) * step);
+  return bend > T(0) ? least(T(2) * sqrt(at.error / bend), limit) : limit;
 }
 
-Crossing crossing_between(const Setting& s, const Knot& a, const Knot& b) {
-  const double u = zero_between(
-      a.u, b.u, a.negative(), [&](double x) { return implicit(s, x).f; },
-      [&](double x) { return slope(s, x); });
-  const double steep = std::fabs(slope(s, u));
-  const double limit = std::fabs(b.u - a.u);
-  const double u_error = steep > 0 ? least(implicit(s, u).error / steep, limit) : limit;
-  return crossing_of(s, u, u_error + 4 * unit_roundoff);
-}
-
-/// All crossings of the line beyond `start`, ascending. `start` is a point whose side is known.
-struct Line {
-  int count = 0;
-  std::array<Crossing, 8> at;
-};
-
-Line line_crossings(const Setting& s, double start_u, bool start_inside) {
-  std::array<Knot, 5> knots;
+/// All crossings of the line beyond u = start, where it is inside or not, into `found`, ascending.
+template <class T>
+void add_crossings(const TorusLine<T>& l, T start, bool starts_inside, Crossings& found) {
+  using std::fabs;
+  std::array<Sample<T>, 5> knots;
   int n = 0;
-  knots[n++] = {start_u, {start_inside ? -1.0 : 1.0, 0}};
-  const CriticalPoints critical = critical_points(s);
+  knots[n++] = {start, T(starts_inside ? -1 : 1), T(0), T(0), T(0), T(0)};
+  const CriticalPoints<T> critical = critical_points(l);
   for (int i = 0; i < critical.count; ++i)
-    if (critical.u[i] > start_u) knots[n++] = {critical.u[i], implicit(s, critical.u[i])};
-  knots[n++] = {s.reach, {1.0, 0}};
+    if (critical.u[i] > start) knots[n++] = sample(l, critical.u[i]);
+  knots[n++] = {l.high, T(1), T(0), T(0), T(0), T(0)};
 
-  Line line;
-  const auto add = [&](const Crossing& c) { line.at[static_cast<std::size_t>(line.count++)] = c; };
-  Knot last = knots[0];
+  Sample<T> last = knots[0];
   for (int i = 1; i < n; ++i) {
-    const Knot& knot = knots[i];
-    const bool stationary = i + 1 < n;
-    if (stationary && knot.is_uncertain() && last.negative() == knots[i + 1].negative()) {
-      const double limit = least(knot.u - last.u, knots[i + 1].u - knot.u);
-      const Crossing tangent = crossing_of(s, knot.u, tangent_reach(s, knot, limit));
-      add(tangent), add(tangent);
-      continue;
+    const Sample<T>& knot = knots[i];
+    const bool was_inside = last.f < T(0), is_inside = knot.f < T(0);
+    if (i + 1 < n && knot.is_uncertain()) {
+      found.wants_digits = true;
+      if (was_inside == (knots[i + 1].f < T(0))) {
+        const T limit = least(knot.u - last.u, knots[i + 1].u - knot.u);
+        const Crossing tangent = crossing_of(l, knot.u, tangent_reach(l, knot, limit));
+        found.add(tangent), found.add(tangent);
+        continue;
+      }
     }
-    if (knot.negative() != last.negative()) add(crossing_between(s, last, knot));
+    if (was_inside != is_inside) {
+      const T p = critical.p;
+      const Sample<T> s = was_inside ? zero_between(l, p, last, knot.u) : zero_between(l, p, knot, last.u);
+      const T limit = fabs(knot.u - last.u), slope = fabs(s.rho_slope);
+      const T off = T(2) * (fabs(s.f) + s.error) * s.rho;
+      found.add(crossing_of(l, s.u, off < limit * slope ? off / slope : limit));
+    }
     last = knot;
   }
-  return line;
 }
 
 }  // namespace
 
-Crossings crossings_of(const Torus& torus, const LocalRay<double>& ray) {
-  Setting s;
-  Crossings found;
-  if (!set_up(torus, ray, s)) return found;
-  const Line line = line_crossings(s, -s.reach, false);
+template <class T>
+Crossings crossings_of(const Torus& torus, const LocalRay<T>& ray) {
+  TorusLine<T> l;
+  Crossings line, found;
+  if (!set_up(torus, ray, l)) return found;
+  add_crossings(l, l.low, false, line);
+  found.wants_digits = line.wants_digits;
   for (int i = 0; i < line.count; ++i) {
     const Crossing& c = line.at[static_cast<std::size_t>(i)];
+    if (c.lo() <= 0 && c.hi() > 0) found.wants_digits = true;
     if (c.lo() <= 0)
       found.starts_inside = !found.starts_inside;
     else
@@ -205,20 +284,17 @@ Crossings crossings_of(const Torus& torus, const LocalRay<double>& ray) {
   return found;
 }
 
+template Crossings crossings_of(const Torus&, const LocalRay<double>&);
+template Crossings crossings_of(const Torus&, const LocalRay<DoubleDouble>&);
+
 Crossings crossings_from_surface(const Torus& torus, const LocalRay<double>& ray, bool inward) {
-  Setting s;
+  TorusLine<double> l;
   Crossings found;
+  if (!set_up(torus, ray, l)) return found;
   found.starts_inside = inward;
-  if (!set_up(torus, ray, s)) {
-    found.starts_inside = false;
-    return found;
-  }
-  const double start_u = least(-s.t_of_foot / s.t_per_u, s.reach);
-  const Line line = line_crossings(s, start_u, inward);
-  for (int i = 0; i < line.count; ++i) found.add(line.at[static_cast<std::size_t>(i)]);
+  add_crossings(l, least(greatest(-l.t_of_foot / l.t_per_u, l.low), l.high), inward, found);
   return found;
 }
-
 SurfacePoint surface_of(const Torus& torus, const LocalRay<double>& ray, double t, bool) {
   const Vec3d p = ray.origin + ray.direction * t;
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);

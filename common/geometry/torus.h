@@ -15,7 +15,8 @@
 namespace rayfarm {
 
 /// The crossings ahead of the ray's origin.
-Crossings crossings_of(const Torus& torus, const LocalRay<double>& ray);
+template <class T>  // double or DoubleDouble
+Crossings crossings_of(const Torus& torus, const LocalRay<T>& ray);
 
 /// For a ray that starts on the torus: the crossing at the origin is known and left out.
 Crossings crossings_from_surface(const Torus& torus, const LocalRay<double>& ray, bool inward);

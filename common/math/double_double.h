@@ -4,10 +4,13 @@
 #pragma once
 #include <cmath>
 
+#include "common/math/number.h"
+
 namespace rayfarm {
 
 struct DoubleDouble {
   double hi = 0, lo = 0;
+  bool operator==(const DoubleDouble&) const = default;
 };
 
 /// a + b exactly.
@@ -45,5 +48,29 @@ inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   const double rest = std::fma(-q, b.hi, a.hi) + (a.lo - q * b.lo);
   return fast_two_sum(q, rest / b.hi);
 }
+
+// As a number type of geometry (number.h). No operation but a comparison may meet an infinity.
+
+template <>
+constexpr double unit_roundoff_of<DoubleDouble> = 0x1p-102;
+
+inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
+  return a.hi != b.hi ? a.hi < b.hi : a.lo < b.lo;
+}
+inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
+inline bool operator<=(const DoubleDouble& a, const DoubleDouble& b) { return a < b || a == b; }
+inline bool operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
+inline DoubleDouble fabs(const DoubleDouble& a) { return a.hi < 0 ? -a : a; }
+inline DoubleDouble sqrt(const DoubleDouble& a) {
+  const double root = std::sqrt(a.hi);
+  if (root == 0) return {};
+  const DoubleDouble rest = a - two_product(root, root);
+  return fast_two_sum(root, rest.hi / (2 * root));
+}
+inline DoubleDouble select(bool condition, const DoubleDouble& yes, const DoubleDouble& no) {
+  return condition ? yes : no;
+}
+inline DoubleDouble least(const DoubleDouble& a, const DoubleDouble& b) { return b < a ? b : a; }
+inline DoubleDouble greatest(const DoubleDouble& a, const DoubleDouble& b) { return a < b ? b : a; }
 
 }  // namespace rayfarm

@@ -1,5 +1,5 @@
 // What geometry over a number type needs besides + - * /: the same words for one double and, later, for a
-// pack.
+// pack; for a double-double (double_double.h), where a double is not enough.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -13,6 +13,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A bound on the relative error of n operations in a row. Source: N. J. Higham, Accuracy and Stability of
 /// Numerical Algorithms, section 3.1 (gamma_n).
 constexpr double gamma_bound(int n) { return n * unit_roundoff / (1 - n * unit_roundoff); }
+
+/// The same for other number types.
+template <class T>
+constexpr double unit_roundoff_of = std::numeric_limits<T>::epsilon() / 2;
 
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline bool none(bool condition) { return !condition; }

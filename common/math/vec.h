@@ -64,6 +64,11 @@ Vec3<T> normalized(const Vec3<T>& a) {
   const T l = length(a);
   return {a.x / l, a.y / l, a.z / l};
 }
+template <class T>
+T sum_abs(const Vec3<T>& a) {
+  using std::fabs;
+  return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
 /// The largest component's magnitude: the norm in which error bounds are kept.
 template <class T>
 T max_abs(const Vec3<T>& a) {

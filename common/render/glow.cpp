@@ -17,7 +17,7 @@ GlowShell make_glow_shell(const Glow& glow, const BoundedAffine& world_from_loca
 std::optional<Vec3d> glow_along(const GlowShell& shell, const RayQuery& query,
                                 const std::optional<Hit>& hit) {
   const LocalRay<double> ray = to_local(shell.leaf, query);
-  const std::optional<Interval<double>> inside = convex_interval(shell.leaf, ray);
+  const std::optional<Interval<double>> inside = convex_interval(shell.leaf, query);
   if (!inside || inside->enter.lo > inside->leave.hi || inside->enter.lo <= 0) return std::nullopt;
   if (hit && inside->enter.lo > hit->t + hit->t_error) return std::nullopt;
   const double z = ray.origin.z + inside->enter.t * ray.direction.z;

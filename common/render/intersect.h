@@ -31,7 +31,7 @@ ObjectStart starting(bool inside, const Bounded<double>& at, std::uint32_t leaf)
 ObjectStart start_of_interval(const Interval<double>& i, std::uint32_t leaf) {
   if (i.enter.lo > i.leave.hi || i.leave.lo <= 0) return {};
   if (i.enter.lo <= 0) return starting(true, i.leave, leaf);
-  if (i.leave.lo <= i.enter.hi) return {};  // in and out within the error: one event without effect
+  if (i.leave.lo <= i.enter.hi && !i.is_certain) return {};  // in and out within the error: without effect
   return starting(false, i.enter, leaf);
 }
 
@@ -48,8 +48,7 @@ ObjectStart start_of_crossings(const Crossings& c, std::uint32_t leaf) {
 
 ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
   if (number != q.ray.left_leaf)
-    if (const auto interval = convex_interval(leaf, to_local(leaf, q)))
-      return start_of_interval(*interval, number);
+    if (const auto interval = convex_interval(leaf, q)) return start_of_interval(*interval, number);
   return start_of_crossings(crossings_ahead(leaf, number, q), number);
 }
 

@@ -4,11 +4,16 @@
 
 namespace rayfarm::stability {
 
+std::vector<Case> sphere_cases();             // S1 to S3
+std::vector<Case> quadric_cases();            // S5 to S7
+std::vector<Case> torus_cases();              // S8, S9
+std::vector<Case> transform_cases();          // S4, S15
 std::vector<Case> shared_face_cases();        // S12
 std::vector<Case> twin_cases();               // S13
 std::vector<Case> stacked_slab_cases();       // S14
 std::vector<Case> menger_cases();             // S16
 std::vector<Case> random_tree_cases();        // S17
+std::vector<Case> logic_cases();              // S18, S21
 std::vector<Case> self_intersection_cases();  // S19
 std::vector<Case> refraction_cases();         // S20
 std::vector<Case> sampler_cases();            // S22

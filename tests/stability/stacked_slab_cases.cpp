@@ -34,7 +34,10 @@ double height_above(const Affine& block_from_world, double slabs, const Vec3d& p
   return std::max({-q.x, q.x - 1, -q.y, q.y - 1, -q.z, q.z - slabs});
 }
 
-Affine inverse_of(const Affine& m) { return inverse(bounded(m)).map; }
+Affine inverse_of(const Affine& m) {
+  const glm::dmat3 back = glm::inverse(m.linear);
+  return {back, -(back * m.offset)};
+}
 
 Tally run_ours(const Batch& batch) {
   RandomRays random(batch.seed);

@@ -84,7 +84,7 @@ class TextbookLeaf {
   }
 
   void put_ours(TextbookSpans<T>& spans, const Ray& ray) const {
-    const Crossings c = crossings(leaf_, to_local(leaf_, RayQuery(ray)));
+    const Crossings c = crossings(leaf_, RayQuery(ray));
     for (int i = 0; i + 1 < std::min(c.count, 4); i += 2)
       spans.add(T(c.at[static_cast<std::size_t>(i)].t), T(c.at[static_cast<std::size_t>(i) + 1].t));
   }

@@ -45,7 +45,7 @@ class Membership {
     // Any ray from the point knows the side at its origin.
     Ray r;
     r.origin = world, r.direction = {0.5, 0.6, 0.7};
-    return crossings(leaf, to_local(leaf, RayQuery(r))).starts_inside;
+    return crossings(leaf, RayQuery(r)).starts_inside;
   }
 
   const World::Parts& world_;

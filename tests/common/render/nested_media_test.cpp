@@ -128,7 +128,7 @@ class Membership {
       Ray r = ray_of(p, {0.5, 0.6, 0.7});  // any ray knows the side at its origin
       const Leaf& l = world_.leaves[leaf];
       const std::uint32_t number = leaf++;
-      return crossings(l, to_local(l, RayQuery(r))).starts_inside ? std::optional(number) : std::nullopt;
+      return crossings(l, RayQuery(r)).starts_inside ? std::optional(number) : std::nullopt;
     }
     std::optional<std::uint32_t> first, last;
     std::uint32_t holding = 0;
