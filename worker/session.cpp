@@ -14,7 +14,7 @@ std::string number_of(JobId job) { return std::to_string(static_cast<std::uint64
 
 void log_start(const FrameStart& start) {
   const RenderSettings& s = start.settings;
-  spdlog::info("job {}, frame {} starts: {}x{}, {} samples per pixel, scene {}", number_of(start.job),
+  spdlog::info("job {} starts, frame {}: {}x{}, {} samples per pixel, scene {}", number_of(start.job),
                s.frame, s.width, s.height, s.spp, start.scene_hash.substr(0, 8));
 }
 
@@ -85,7 +85,7 @@ void WorkerSession::handle(const ToWorker& message) {
     log_start(*start);
     crew_.take(*start);
   } else if (const auto* end = std::get_if<FrameEnd>(&message)) {
-    spdlog::info("job {}, frame {} ended", number_of(end->job), end->frame);
+    spdlog::info("job {} ended, frame {}", number_of(end->job), end->frame);
     crew_.take(*end);
   } else if (const auto* scene = std::get_if<SceneData>(&message)) {
     crew_.take(*scene);
