@@ -27,8 +27,9 @@ Ray ray_at_sphere(double distance, RandomRays& random) {
   return ray;
 }
 
+/// Not inlined: where the vectorizer of g++ 12 sees double(float(x)) beside its use, it takes x.
 template <class T>
-Ray rounded_to(const Ray& ray) {
+[[gnu::noinline]] Ray rounded_to(const Ray& ray) {
   const Vec3<T> o = in<T>(ray.origin), d = in<T>(ray.direction);
   Ray r;
   r.origin = {o.x, o.y, o.z}, r.direction = {d.x, d.y, d.z};

@@ -64,7 +64,7 @@ RunBatch off_in_chain(MakeMethod make) {
       const Ray ray = ray_at(chain, random);
       const QuadRay local = moved(back, quad(ray));
       const QuadSpans truth = quad_spans(Sphere{}, local);
-      if (truth.at.size() != 2) continue;
+      if (truth.at.size() != 2 || truth.at[0] < 0) continue;
       const QuadVec n = local.origin + local.direction * truth.at[0];
       if (static_cast<double>(-dot(n, unit(local.direction))) < 0.3) continue;
       ++tally.rays;
