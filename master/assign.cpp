@@ -151,6 +151,7 @@ void Farm::State::end(Job& job, JobState state, FarmTime now) {
   for (JobFrame& frame : job.frames)
     if (!frame.ended) end(job, frame, now);
   for (auto& [id, worker] : workers) worker.jobs.erase(job.id);
+  drop_unneeded_assets();
   if (state != JobState::done) job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
   ++revision;
   update_queue(job);

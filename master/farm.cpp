@@ -121,6 +121,17 @@ std::optional<std::string> Farm::objection_to(const std::string& wanted_name) co
   return words_for_banned(name);
 }
 
+namespace {
+
+JobFrame frame_with(std::string scene_hash, SharedBytes scene, std::vector<AssetData> assets) {
+  JobFrame frame;
+  frame.scene_hash = std::move(scene_hash), frame.scene_bytes = std::move(scene);
+  frame.assets = std::move(assets);
+  return frame;
+}
+
+}  // namespace
+
 // Jobs. ----------------------------------------------------------------------------------
 
 JobId Farm::submit(JobSpec spec, FarmTime now) {
@@ -139,7 +150,8 @@ JobId Farm::submit(JobSpec spec, FarmTime now) {
   job.spec = std::move(spec);
   job.state = job.spec.hold ? JobState::paused : JobState::waiting;
   job.submitted = now;
-  state_->add_frame(job, std::move(job.spec.scene_hash), std::move(job.spec.scene_bytes));
+  state_->add_frame(job, frame_with(std::move(job.spec.scene_hash), std::move(job.spec.scene_bytes),
+                                    std::move(job.spec.assets)));
   ++state_->last_job;
   if (!job.spec.key.empty()) state_->job_by_key[job.spec.key] = job.id;
   ++state_->revision;
@@ -155,7 +167,8 @@ JobId Farm::submit(JobSpec spec, FarmTime now) {
   return id;
 }
 
-bool Farm::add_frame(FrameId id, std::string scene_hash, SharedBytes scene, FarmTime now) {
+bool Farm::add_frame(FrameId id, std::string scene_hash, SharedBytes scene, FarmTime now,
+                     std::vector<AssetData> assets) {
   const auto found = state_->jobs.find(id.job);
   if (found == state_->jobs.end()) return false;
   Job& job = found->second;
@@ -171,7 +184,7 @@ bool Farm::add_frame(FrameId id, std::string scene_hash, SharedBytes scene, Farm
                             ? "all " + std::to_string(next) + " frames of " + title_of(job) + " have come"
                             : "the next frame of " + title_of(job) + " is " + std::to_string(range.at(next)) +
                                   ", not " + std::to_string(id.frame));
-  state_->add_frame(job, std::move(scene_hash), std::move(scene));
+  state_->add_frame(job, frame_with(std::move(scene_hash), std::move(scene), std::move(assets)));
   ++state_->revision;
   state_->update_queue(job);
   state_->fill_all(now);

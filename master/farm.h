@@ -57,7 +57,8 @@ struct JobSpec {
   std::string name;
   std::string output;  // fetch's default file, on the submitter's PC
   std::string scene_hash;
-  SharedBytes scene_bytes;  // encode_scene(); of the first frame
+  SharedBytes scene_bytes;        // encode_scene(); of the first frame
+  std::vector<AssetData> assets;  // of that scene
   RenderSettings settings;
   std::optional<FrameRange> frames;  // none: the one of the settings. The other scenes come by add_frame()
   int priority = 50;                 // 0..99, higher first; equals in order of submission
@@ -70,10 +71,11 @@ struct JobSpec {
 /// film loses its scene, too, and its job the key. And how much may be unfinished: beyond that, nothing is taken
 /// in.
 struct FarmLimits {
-  std::uint64_t film_bytes = std::uint64_t{2} << 30;  // all films and scenes; the newest stay, however big
-  std::size_t jobs = 1000;                            // at least 1; the others are as if they had never been
+  std::uint64_t film_bytes = std::uint64_t{2}
+                             << 30;  // all films, scenes, assets; the newest stay, however big
+  std::size_t jobs = 1000;           // at least 1; the others are as if they had never been
   std::size_t unfinished_jobs = 10'000;
-  std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished frames, each scene once
+  std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished frames, each scene and asset once
 };
 
 /// A job as people see it.
@@ -184,7 +186,8 @@ class Farm {
   JobId submit(JobSpec spec, FarmTime now);
   /// The scene of the next frame; again the same scene of one that has come already is no fault. False: no such
   /// job, or it has ended. Throws SettingsError when another frame is next, FarmFull, KeyTaken.
-  bool add_frame(FrameId id, std::string scene_hash, SharedBytes scene, FarmTime now);
+  bool add_frame(FrameId id, std::string scene_hash, SharedBytes scene, FarmTime now,
+                 std::vector<AssetData> assets = {});
   // These answer false when there is no such job, or it has ended. Pausing and cancelling revoke at once.
   bool pause(JobId job, FarmTime now);
   bool resume(JobId job, FarmTime now);
@@ -219,6 +222,8 @@ class Farm {
   /// The encoded scene of a frame that goes on or is done; null when there is no such frame, its job was
   /// cancelled or failed before it was done, or its film is no longer kept.
   SharedBytes scene(JobId id, std::optional<std::uint32_t> frame = {}) const;
+  /// Those of that scene.
+  std::vector<AssetData> assets(JobId id, std::optional<std::uint32_t> frame = {}) const;
   /// Grows with every change of a job: to wait for news.
   std::uint64_t revision() const;
 

@@ -45,32 +45,35 @@ NameId Farm::State::id_of_name(const std::string& name) {
   return id;
 }
 
-SharedBytes Farm::State::take_in_scene(const std::string& hash, SharedBytes bytes) {
-  const auto known = scenes.find(hash);
-  if (known != scenes.end()) bytes = known->second.bytes.lock();
-  const bool is_new = known == scenes.end() || known->second.unfinished == 0;
-  const std::uint64_t after = unfinished_scene_bytes + (is_new ? bytes->size() : 0);
-  if (is_new && after > limits.scene_bytes)
+void Farm::State::take_in_data(JobFrame& frame) {
+  std::uint64_t added = 0;
+  for_each_data(frame, [&](const std::string& hash, SharedBytes& bytes) {
+    const auto known = shared.find(hash);
+    if (known != shared.end()) bytes = known->second.bytes.lock();
+    if (known == shared.end() || known->second.unfinished == 0) added += bytes->size();
+  });
+  const std::uint64_t after = unfinished_bytes + added;
+  if (added > 0 && after > limits.scene_bytes)
     throw FarmFull("the scenes of unfinished jobs would take " + std::to_string(after) + " bytes, of " +
                    std::to_string(limits.scene_bytes) + ": wait for some to end, or cancel them");
-  unfinished_scene_bytes = after;
-  SharedScene& scene = scenes[hash];
-  scene.bytes = bytes;
-  ++scene.unfinished;
-  return bytes;
+  unfinished_bytes = after;
+  for_each_data(frame, [&](const std::string& hash, const SharedBytes& bytes) {
+    shared[hash].bytes = bytes;
+    ++shared[hash].unfinished;
+  });
 }
 
-void Farm::State::release_unfinished(const JobFrame& frame) {
-  const auto scene = scenes.find(frame.scene_hash);
-  if (--scene->second.unfinished > 0) return;
-  unfinished_scene_bytes -= frame.scene_bytes->size();
-  if (scene->second.kept == 0) scenes.erase(scene);
+void Farm::State::release_unfinished(JobFrame& frame) {
+  for_each_data(frame, [&](const std::string& hash, const SharedBytes& bytes) {
+    const auto data = shared.find(hash);
+    if (--data->second.unfinished > 0) return;
+    unfinished_bytes -= bytes->size();
+    if (data->second.kept == 0) shared.erase(data);
+  });
 }
 
-void Farm::State::add_frame(Job& job, std::string hash, SharedBytes scene) {
-  JobFrame frame;
-  frame.scene_bytes = take_in_scene(hash, std::move(scene));
-  frame.scene_hash = std::move(hash);
+void Farm::State::add_frame(Job& job, JobFrame frame) {
+  take_in_data(frame);
   const auto place = static_cast<std::uint32_t>(job.frames.size());
   frame.number = job.spec.frames->at(place);
   job.frames.push_back(std::move(frame));
@@ -81,26 +84,37 @@ void Farm::State::end(Job& job, JobFrame& frame, FarmTime now) {
   frame.ended = now;
   for (auto& [id, worker] : workers) forget(worker, {job.id, frame.number});
   const bool is_done = frame.canvas && frame.canvas->film->is_complete();
-  SharedScene& scene = scenes.at(frame.scene_hash);
-  if (is_done && scene.kept++ == 0) bytes_kept += frame.scene_bytes->size();
+  if (is_done)
+    for_each_data(frame, [&](const std::string& hash, const SharedBytes& bytes) {
+      if (shared.at(hash).kept++ == 0) bytes_kept += bytes->size();
+    });
   release_unfinished(frame);
-  if (!is_done) frame.scene_bytes.reset();
+  if (!is_done) drop_data(frame);
   if (!frame.canvas) return;
   bytes_kept += film_bytes(frame);
   ended_frames.push_back({job.id, frame.number});
 }
 
+void Farm::State::drop_unneeded_assets() {
+  if (std::ranges::all_of(workers, [](const auto& worker) { return worker.second.assets.empty(); })) return;
+  std::set<std::string> needed;
+  for (const auto& [id, job] : jobs)
+    if (!has_ended(job))
+      for (const JobFrame& frame : job.frames)
+        for (const AssetData& asset : frame.assets) needed.insert(asset.hash);
+  for (auto& [id, worker] : workers) forget_assets(worker, needed);
+}
+
 void Farm::State::drop_picture(Job& job, JobFrame& frame) {
   bytes_kept -= film_bytes(frame);
   frame.canvas.reset();
-  if (frame.scene_bytes) {
-    const auto scene = scenes.find(frame.scene_hash);
-    if (--scene->second.kept == 0) {
-      bytes_kept -= frame.scene_bytes->size();
-      if (scene->second.unfinished == 0) scenes.erase(scene);
-    }
-    frame.scene_bytes.reset();
-  }
+  for_each_data(frame, [&](const std::string& hash, const SharedBytes& bytes) {
+    const auto data = shared.find(hash);
+    if (--data->second.kept > 0) return;
+    bytes_kept -= bytes->size();
+    if (data->second.unfinished == 0) shared.erase(data);
+  });
+  drop_data(frame);
   ++job.frames_dropped;
   ++revision;
 }

@@ -22,13 +22,13 @@ struct Farm::State {
   std::deque<FrameId> ended_frames;
   std::uint64_t bytes_kept = 0;  // of ended frames
   std::map<std::string, JobId> job_by_key;
-  /// One that frames share.
-  struct SharedScene {
+  /// The bytes of a scene or asset, that frames share.
+  struct SharedData {
     SharedBytes::weak_type bytes;
     std::size_t unfinished = 0, kept = 0;  // frames
   };
-  std::map<std::string, SharedScene> scenes;  // by hash: exactly those that frames have
-  std::uint64_t unfinished_scene_bytes = 0;
+  std::map<std::string, SharedData> shared;  // by hash: exactly those that frames have
+  std::uint64_t unfinished_bytes = 0;        // of those, each counted once
   std::map<WorkerId, Worker> workers;
   std::set<std::string, std::less<>> drained_names, banned_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those too many.
@@ -53,11 +53,14 @@ struct Farm::State {
   std::string unique_name(const std::string& wanted) const;
   NameId id_of_name(const std::string& name);
 
-  /// The bytes that frames of this hash share; counted as those of an unfinished one. Throws FarmFull.
-  SharedBytes take_in_scene(const std::string& hash, SharedBytes bytes);
-  void release_unfinished(const JobFrame& frame);
+  /// The frame shares its scene and assets with others that have the same; they count as those of an unfinished one.
+  /// Throws FarmFull.
+  void take_in_data(JobFrame& frame);
+  void release_unfinished(JobFrame& frame);
   /// Its scene counts as unfinished from now on.
-  void add_frame(Job& job, std::string hash, SharedBytes scene);
+  void add_frame(Job& job, JobFrame frame);
+  /// Lets workers forget the assets that no job has that goes on.
+  void drop_unneeded_assets();
 
   // Giving work out.
   Job* next_job_for(const Worker& worker);

@@ -80,6 +80,11 @@ std::optional<Deliveries> Farm::deliveries(JobId id, std::optional<std::uint32_t
   return all;
 }
 
+std::vector<AssetData> Farm::assets(JobId id, std::optional<std::uint32_t> number) const {
+  const JobFrame* frame = state_->frame(id, number);
+  return frame ? frame->assets : std::vector<AssetData>{};
+}
+
 SharedBytes Farm::scene(JobId id, std::optional<std::uint32_t> number) const {
   const JobFrame* frame = state_->frame(id, number);
   return frame ? frame->scene_bytes : nullptr;

@@ -18,6 +18,11 @@ std::uint32_t place_of(NameId name, std::vector<NameId>& names) {
 
 Size size_of(const RenderSettings& settings) { return {settings.width, settings.height}; }
 
+void drop_data(JobFrame& frame) {
+  frame.scene_bytes.reset();
+  frame.assets.clear();
+}
+
 bool has_ended(const Job& job) {
   return job.state == JobState::done || job.state == JobState::cancelled || job.state == JobState::failed;
 }

@@ -41,7 +41,8 @@ struct Canvas {
 struct JobFrame {
   std::uint32_t number = 0;
   std::string scene_hash;
-  SharedBytes scene_bytes;  // null when it is no longer needed
+  SharedBytes scene_bytes;        // null when it is no longer needed
+  std::vector<AssetData> assets;  // of the scene
   std::optional<Canvas> canvas;
   std::uint64_t pixels_done = 0;
   RayCounters counters;
@@ -66,6 +67,16 @@ struct Job {
   std::optional<FarmTime> started, ended;
   std::uint64_t tiles_given_back = 0;
 };
+
+/// Calls visit(hash, bytes) for the frame's scene and assets, when it has them.
+template <class Frame, class Visit>
+void for_each_data(Frame& frame, Visit&& visit) {
+  if (!frame.scene_bytes) return;
+  visit(frame.scene_hash, frame.scene_bytes);
+  for (auto& asset : frame.assets) visit(asset.hash, asset.bytes);
+}
+/// Nobody will look into it any more.
+void drop_data(JobFrame& frame);
 
 Size size_of(const RenderSettings& settings);
 /// What its film takes, once all pixels are there.

@@ -88,12 +88,14 @@ void serve(const Arguments& arguments) {
   };
   const AppFiles app;
   const SceneLibrary scenes;
+  AssetStore assets;
   const HttpServer http({arguments.http, arguments.insecure}, {.farm = door,
                                                                .feeder = feeder,
                                                                .diagnostics = diagnostics,
                                                                .master = master,
                                                                .app = app,
-                                                               .scenes = scenes});
+                                                               .scenes = scenes,
+                                                               .assets = assets});
   std::optional<LocalThreads> local;
   if (arguments.threads > 0) local.emplace(io, farm, arguments.threads);
   dial_all(sessions, arguments.dial);

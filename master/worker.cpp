@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 namespace rayfarm {
 namespace {
@@ -51,14 +52,27 @@ WorkerView view_of(const Worker& worker) {
 void introduce(Worker& worker, const Job& job, const JobFrame& frame) {
   const FrameId id{job.id, frame.number};
   if (worker.frames.contains(id)) return;
+  std::vector<std::string> assets;
+  for (const AssetData& asset : frame.assets) {
+    if (worker.assets.insert(asset.hash).second) worker.send(asset);
+    assets.push_back(asset.hash);
+  }
   if (!knows_scene(worker, frame.scene_hash)) worker.send(SceneData{frame.scene_hash, frame.scene_bytes});
-  worker.send(FrameStart{job.id, frame.scene_hash, settings_of(job, frame)});
+  worker.send(FrameStart{job.id, frame.scene_hash, settings_of(job, frame), std::move(assets)});
   worker.frames[id] = frame.scene_hash;
   worker.jobs[job.id];
 }
 
 void forget(Worker& worker, FrameId frame) {
   if (worker.frames.erase(frame) != 0) worker.send(FrameEnd{frame.job, frame.frame});
+}
+
+void forget_assets(Worker& worker, const std::set<std::string>& needed) {
+  AssetEnd end;
+  std::ranges::set_difference(worker.assets, needed, std::back_inserter(end.hashes));
+  if (end.hashes.empty()) return;
+  for (const std::string& hash : end.hashes) worker.assets.erase(hash);
+  worker.send(std::move(end));
 }
 
 void assign(Worker& worker, LeaseId id, const Lease& lease) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,8 @@ struct Worker {
   };
   std::map<JobId, KnownJob> jobs;
   std::map<FrameId, std::string>
-      frames;  // that it was told of and not yet told the end of: their scenes' hashes
+      frames;                    // that it was told of and not yet told the end of: their scenes' hashes
+  std::set<std::string> assets;  // hashes of those that it was sent and not told to forget
 
   std::map<LeaseId, Lease> leases;  // held now
   std::uint64_t samples_held = 0;   // sum over leases
@@ -57,6 +59,8 @@ WorkerView view_of(const Worker& worker);
 void introduce(Worker& worker, const Job& job, const JobFrame& frame);
 /// Lets the frame be forgotten, if it is known.
 void forget(Worker& worker, FrameId frame);
+/// Lets the assets be forgotten that are none of these.
+void forget_assets(Worker& worker, const std::set<std::string>& needed);
 void assign(Worker& worker, LeaseId id, const Lease& lease);
 /// Takes a lease that the worker holds away from it, silently.
 Lease take_lease(Worker& worker, LeaseId id);

@@ -89,6 +89,10 @@ void WorkerSession::handle(const ToWorker& message) {
     crew_.take(*end);
   } else if (const auto* scene = std::get_if<SceneData>(&message)) {
     crew_.take(*scene);
+  } else if (const auto* asset = std::get_if<AssetData>(&message)) {
+    crew_.take(*asset);
+  } else if (const auto* dropped = std::get_if<AssetEnd>(&message)) {
+    crew_.take(*dropped);
   }
 }
 

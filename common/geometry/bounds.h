@@ -56,4 +56,22 @@ inline BoxSpan span_in(const Box& box, const RayQuery& q, double t_max) {
   return {entry, exit};
 }
 
+/// A line as wide as 2 * margin: boxes that it only nearly passes are found, too.
+struct WideLine {
+  Vec3d origin, inverse;  // inverse: of the direction; infinite where it is 0
+  double margin;
+};
+
+inline BoxSpan span_in(const Box& box, const WideLine& line, double t_max) {
+  double entry = 0, exit = least(t_max, std::numeric_limits<double>::max());
+  for (int axis = 0; axis < 3; ++axis) {
+    const double o = line.origin[axis], inverse = line.inverse[axis];
+    const double a = (box.low[axis] - line.margin - o) * inverse,
+                 b = (box.high[axis] + line.margin - o) * inverse;
+    entry = greatest(entry, least(a, b));
+    exit = least(exit, greatest(b, a) * (1 + 8 * unit_roundoff));
+  }
+  return {entry, exit};
+}
+
 }  // namespace rayfarm

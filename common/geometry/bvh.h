@@ -21,9 +21,9 @@ class Bvh {
 
   /// Calls visit(place) for each box that the ray meets before t_max, roughly near to far; place is the
   /// position in order(). The visitor may lower t_max, and ends the walk by returning false. Its box_tested(),
-  /// if it has one, is called for each box on the way.
-  template <class Visit>
-  void visit(const RayQuery& ray, const double& t_max, Visit&& visit_box) const;
+  /// if it has one, is called for each box on the way. The line is a RayQuery or a WideLine.
+  template <class Line, class Visit>
+  void visit(const Line& line, const double& t_max, Visit&& visit_box) const;
 
  private:
   /// What stands below a node: boxes first .. first + count of order_, or for count 0 the node `first`.
@@ -43,11 +43,11 @@ class Bvh {
   std::vector<std::uint32_t> order_;
 };
 
-template <class Visit>
-void Bvh::visit(const RayQuery& ray, const double& t_max, Visit&& visit_box) const {
+template <class Line, class Visit>
+void Bvh::visit(const Line& line, const double& t_max, Visit&& visit_box) const {
   const auto test = [&](const Box& box) {
     if constexpr (requires { visit_box.box_tested(); }) visit_box.box_tested();
-    return span_in(box, ray, t_max);
+    return span_in(box, line, t_max);
   };
   struct Waiting {
     const Child* child;

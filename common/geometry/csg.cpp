@@ -63,7 +63,8 @@ bool next_boundary(std::span<const CsgItem> items, CsgWorkspace& ws, std::size_t
     const std::size_t first = pass_group(items, ws, next);
     if (inside() == before) continue;
     const CsgWorkspace::Event& e = ws.events[next - first == 1 ? first : shown_event(items, ws, first)];
-    found = {e.t, e.error, items[e.item].leaf, ws.counts[e.item] != 0, !before};
+    found = {e.t,     e.error,        items[e.item].leaf, ws.counts[e.item] != 0,
+             !before, unknown_medium, unknown_medium,     e.part};
     return true;
   }
   return false;
@@ -97,7 +98,8 @@ bool next_filling(std::span<const CsgItem> items, CsgWorkspace& ws, std::size_t&
         if (ws.events[e].item == change.after || ws.events[e].item == change.before) shown = e;
     }
     const CsgWorkspace::Event& e = ws.events[shown];
-    change.found = {e.t, e.error, items[e.item].leaf, ws.counts[e.item] != 0, false};
+    change.found = {e.t,   e.error,        items[e.item].leaf, ws.counts[e.item] != 0,
+                    false, unknown_medium, unknown_medium,     e.part};
     return true;
   }
   return false;

@@ -36,6 +36,7 @@ struct Boundary {
   bool entering;       // the ray goes into the material
   std::uint32_t inner = unknown_medium,
                 outer = unknown_medium;  // the material's side and the other: nested media
+  std::uint32_t part = no_part;          // of the leaf: the triangle or patch, where there are such
 };
 
 /// Memory for one thread's rays, reused from ray to ray.
@@ -43,11 +44,12 @@ struct CsgWorkspace {
   static constexpr bool counts_tests = false;
   struct Event {
     double lo, hi, t, error;
-    std::uint32_t item;
+    std::uint32_t item, part;
   };
   std::vector<std::int32_t> counts;         // per item: how much of it is inside
   std::vector<std::int32_t> counts_before;  // at the start of an event with several leaves
   std::vector<Event> events;
+  FacetPath path;
 };
 
 /// What it takes to find out what rays meet.
@@ -70,6 +72,7 @@ struct CountingCsgWorkspace : CsgWorkspace {
   void leaf_tested(const Crossings& found) {
     ++tests.leaves, tests.crossings += static_cast<std::uint64_t>(found.count);
   }
+  void path_tested() { ++tests.leaves, tests.crossings += path.crossings.size(); }
 };
 
 /// Whether an item with that count is inside. A leaf counts 0 or 1.
@@ -116,6 +119,19 @@ bool next_filling(std::span<const CsgItem> items, CsgWorkspace& workspace, std::
 inline Crossings crossings_ahead(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
   if (number == q.ray.left_leaf) return crossings_from_surface(leaf, to_local(leaf, q), q.ray.into_leaf);
   return crossings(leaf, q);
+}
+
+/// What a leaf with facets must know of the ray's start.
+inline Departure departure_from(std::uint32_t leaf, const RayQuery& q) {
+  if (leaf != q.ray.left_leaf) return {};
+  return {q.ray.left_part, q.ray.into_leaf};
+}
+
+/// The same for a leaf with facets. A sheet has no inside, so it has none.
+inline void find_path_ahead(const Leaf& leaf, std::uint32_t number, const RayQuery& q, FacetPath& path) {
+  path.starts_inside = false;
+  path.crossings.clear();
+  if (!leaf.is_sheet()) find_path(*leaf.facets, to_local(leaf, q), departure_from(number, q), path);
 }
 
 }  // namespace rayfarm

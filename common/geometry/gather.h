@@ -20,6 +20,17 @@ void toggle(std::span<const CsgItem> items, std::vector<std::int32_t>& counts, s
   }
 }
 
+/// A leaf with facets has any number of crossings.
+template <class Workspace>
+void gather_facets(std::span<const CsgItem> items, std::uint32_t item, const Leaf& leaf, const RayQuery& q,
+                   Workspace& ws) {
+  find_path_ahead(leaf, items[item].leaf, q, ws.path);
+  if constexpr (Workspace::counts_tests) ws.path_tested();
+  if (ws.path.starts_inside) toggle(items, ws.counts, item);
+  for (const FacetCrossing& c : ws.path.crossings)
+    ws.events.push_back({c.lo(), c.hi(), c.t, c.error, item, c.part});
+}
+
 }  // namespace
 
 template <class Workspace>
@@ -35,13 +46,15 @@ bool gather(std::span<const CsgItem> items, std::span<const Leaf> leaves, const 
       i = item.next;
       continue;
     }
-    if (item.leaf != no_leaf) {
+    if (item.leaf != no_leaf && leaves[item.leaf].facets) {
+      gather_facets(items, i, leaves[item.leaf], q, ws);
+    } else if (item.leaf != no_leaf) {
       const Crossings c = crossings_ahead(leaves[item.leaf], item.leaf, q);
       if constexpr (Workspace::counts_tests) ws.leaf_tested(c);
       if (c.starts_inside) toggle(items, ws.counts, i);
       for (int k = 0; k < c.count; ++k) {
         const Crossing& at = c.at[static_cast<std::size_t>(k)];
-        ws.events.push_back({at.lo(), at.hi(), at.t, at.error, i});
+        ws.events.push_back({at.lo(), at.hi(), at.t, at.error, i, no_part});
       }
     }
     ++i;

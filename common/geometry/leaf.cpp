@@ -91,6 +91,9 @@ Vec3d residual_of(const Vec3d& row, int i, const glm::dmat3& world_from_local) {
   return residual;
 }
 
+/// The largest |coordinate| of its points.
+double size_of(const Box& box) { return greatest(max_abs(box.low), max_abs(box.high)); }
+
 bool is_endless(const Solid& solid) {
   const auto reaches_out = [](const auto& s, const Vec3d& axis) {
     const Extent e = extent_of(s, axis);
@@ -132,15 +135,16 @@ double largest(const Vec3d& of_axes, Vec3d& share) {
 
 }  // namespace
 
-Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local) {
+Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local, const Facets* facets) {
   const glm::dmat3 rows = inverse(world_from_local.map.linear);
   const glm::dvec3& centre = world_from_local.map.offset;
-  const double size = std::visit([](const auto& s) { return size_of(s); }, solid);
+  const double size =
+      facets ? size_of(box_of(*facets)) : std::visit([](const auto& s) { return size_of(s); }, solid);
   // A line in a face of two solids must be inside one of them: both see it moved to the same side. The direction
   // is one that no face is likely to hold.
   const Vec3d world_aside{0.8017, 0.5345, 0.2673};
   Leaf leaf{};
-  leaf.solid = solid;
+  leaf.solid = solid, leaf.facets = facets;
   Vec3d stretch;
   for (int i = 0; i < 3; ++i) {
     leaf.row[i] = row_of(rows, i);
@@ -149,7 +153,7 @@ Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local) {
   }
   set_offset(leaf, centre);
 
-  const bool endless = is_endless(solid);
+  const bool endless = !facets && is_endless(solid);
   Vec3d place, placed, per_size, turn, spread;
   Leaf::Precise& precise = leaf.precise;
   for (int i = 0; i < 3; ++i) {
@@ -202,7 +206,8 @@ void put(Box& box, int axis, const Extent& e, double size, const BoundedAffine& 
 
 }  // namespace
 
-Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local) {
+Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local, const Facets* facets) {
+  if (facets) return moved(box_of(*facets), world_from_local);
   return std::visit(
       [&](const auto& s) {
         Box box;
@@ -290,6 +295,11 @@ TextureCoordinates texture_at(const Leaf& leaf, const SurfacePoint& s) {
   return std::visit([&](const auto& solid) { return texture_of(solid, s); }, leaf.solid);
 }
 
+FacetPoint facet_at(const Leaf& leaf, const LocalRay<double>& ray, const FacetCrossing& crossing) {
+  const Mesh* mesh = std::get_if<Mesh>(&leaf.solid);
+  return point_at(*leaf.facets, ray, crossing, mesh && mesh->smooth);
+}
+
 WorldPoint to_world(const BoundedAffine& world_from_local, const Vec3d& local) {
   const Affine& m = world_from_local.map;
   const glm::dvec3 p{local.x, local.y, local.z}, size = glm::abs(p);
@@ -297,6 +307,13 @@ WorldPoint to_world(const BoundedAffine& world_from_local, const Vec3d& local) {
   const glm::dvec3 error = (magnitude(m.linear) * gamma_bound(8) + world_from_local.linear_error) * size +
                            world_from_local.offset_error + glm::abs(m.offset) * gamma_bound(4);
   return {vec(point(m, p)), max_abs(vec(error))};
+}
+
+WorldPoint to_world(const BoundedAffine& world_from_local, const FacetPoint& local) {
+  WorldPoint found = to_world(world_from_local, local.surface.point);
+  const glm::dmat3 size = magnitude(world_from_local.map.linear) + world_from_local.linear_error;
+  found.error += local.error * greatest(row_sum(size, 0), greatest(row_sum(size, 1), row_sum(size, 2)));
+  return found;
 }
 
 Vec3d normal_to_world(const Leaf& leaf, const Vec3d& n) {

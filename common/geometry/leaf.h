@@ -4,6 +4,7 @@
 
 #include "common/geometry/bounds.h"
 #include "common/geometry/crossing.h"
+#include "common/geometry/facets.h"
 #include "common/geometry/ray.h"
 #include "common/geometry/solids.h"
 #include "common/geometry/surface_point.h"
@@ -38,6 +39,9 @@ struct Leaf {
   Vec3d share;             // of each axis in these four, at most 1
   Vec3d aside;  // where a point goes that is moved a little in world space, the same way for all leaves
   Solid solid;
+  const Facets* facets = nullptr;  // of a mesh or Bezier surface; kept alive by the scene's assets
+
+  bool is_sheet() const { return facets && !is_closed(*facets); }
 
   /// The same with nothing rounded, for rays that double precision cannot tell from others.
   struct Precise {
@@ -46,10 +50,11 @@ struct Leaf {
   } precise;
 };
 
-Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local);
+/// A mesh or Bezier surface comes with its facets.
+Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local, const Facets* facets = nullptr);
 
 /// Never too small; the error of the transform is included.
-Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local);
+Box bounds_of(const Solid& solid, const BoundedAffine& world_from_local, const Facets* facets = nullptr);
 
 /// The box around the transformed box; its error is included.
 Box moved(const Box& box, const BoundedAffine& by);
@@ -88,7 +93,7 @@ inline std::optional<Interval<double>> convex_interval(const Leaf& leaf, const R
       leaf.solid);
 }
 
-/// The leaf's crossings ahead of the ray.
+/// The leaf's crossings ahead of the ray. None of a leaf with facets: it can have any number of them (facets.h).
 Crossings crossings(const Leaf& leaf, const RayQuery& q);
 /// The same for a ray that starts on this leaf's surface: the crossing there is known and left out.
 Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, bool inward);
@@ -96,6 +101,8 @@ Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, 
 /// The surface at a crossing that crossings() found.
 SurfacePoint surface_at(const Leaf& leaf, const LocalRay<double>& ray, double t, bool entering);
 TextureCoordinates texture_at(const Leaf& leaf, const SurfacePoint& local);
+/// The same for a leaf with facets: its crossing in this part.
+FacetPoint facet_at(const Leaf& leaf, const LocalRay<double>& ray, const FacetCrossing& crossing);
 
 /// A local surface point in world space, with the bound on each coordinate's error.
 struct WorldPoint {
@@ -103,6 +110,8 @@ struct WorldPoint {
   double error;
 };
 WorldPoint to_world(const BoundedAffine& world_from_local, const Vec3d& local);
+/// The same for a point that is off by some more in local space.
+WorldPoint to_world(const BoundedAffine& world_from_local, const FacetPoint& local);
 /// The outward unit normal in world space (inverse transpose, so mirroring and shear are right).
 Vec3d normal_to_world(const Leaf& leaf, const Vec3d& local_normal);
 

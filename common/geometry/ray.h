@@ -10,6 +10,7 @@
 namespace rayfarm {
 
 constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_part = std::numeric_limits<std::uint32_t>::max();
 
 /// What fills a place of a scene with nested media: a material's number, or one of these.
 constexpr std::uint32_t unknown_medium = std::numeric_limits<std::uint32_t>::max();
@@ -36,6 +37,7 @@ struct Ray {
   bool into_leaf = false;  // the ray goes to the inner side of left_leaf
   Side side = Side::unknown;
   std::uint32_t medium = unknown_medium;  // into which the ray was sent
+  std::uint32_t left_part = no_part;      // of left_leaf: the triangle or patch, where there are such
 };
 
 inline bool is_sent_inside(const Ray& ray) { return ray.side == Side::inside || ray.medium < empty_space; }

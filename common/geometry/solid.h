@@ -72,7 +72,35 @@ struct Torus {
   bool operator==(const Torus&) const = default;
 };
 
-using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus, Cone>;
+/// A surface of triangles or of Bezier patches, by its number in Scene::assets. It is a solid when it is closed, else
+/// a sheet.
+struct Mesh {
+  std::uint32_t asset = 0;
+  bool smooth = true;  // shaded with the normals of its corners
+
+  static constexpr std::string_view name = "mesh";
+  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static std::array<NamedNumber, 0> numbers() { return {}; }
+  bool operator==(const Mesh&) const = default;
+};
+
+struct Bezier {
+  std::uint32_t asset = 0;
+
+  static constexpr std::string_view name = "bezier";
+  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static std::array<NamedNumber, 0> numbers() { return {}; }
+  bool operator==(const Bezier&) const = default;
+};
+
+using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus, Cone, Mesh, Bezier>;
+
+/// The number of the asset that a solid is made of; none for those made of a few numbers.
+inline const std::uint32_t* asset_of(const Solid& solid) {
+  if (const auto* mesh = std::get_if<Mesh>(&solid)) return &mesh->asset;
+  if (const auto* bezier = std::get_if<Bezier>(&solid)) return &bezier->asset;
+  return nullptr;
+}
 
 /// The word for a solid: in scripts, messages and the browser.
 inline std::string_view kind_of(const Solid& solid) {

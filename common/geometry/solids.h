@@ -13,6 +13,7 @@
 #include "common/geometry/cone.h"
 #include "common/geometry/cube.h"
 #include "common/geometry/cylinder.h"
+#include "common/geometry/faceted_solid.h"
 #include "common/geometry/plane.h"
 #include "common/geometry/sphere.h"
 #include "common/geometry/torus.h"

@@ -23,10 +23,19 @@ struct CodecError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Compressed. The same scene always gives the same bytes, so their hash is the scene's address.
+/// Compressed. The same scene always gives the same bytes, so their hash is the scene's address. Of its assets they hold
+/// the digests only.
 Bytes encode_scene(const Scene& scene);
-/// Decoded and passed through check(): what comes back can be rendered. Throws CodecError or SceneError.
-Scene decode_scene(ByteView bytes);
+/// Decoded and passed through check(): what comes back can be rendered. Its assets must be among those given. Throws
+/// CodecError or SceneError.
+Scene decode_scene(ByteView bytes, std::span<const Asset> assets = {});
+
+constexpr std::size_t max_asset_bytes = 256u << 20;  // encoded
+
+/// Compressed; the same content always gives the same bytes.
+AssetData asset_data(const AssetContent& content);
+/// Throws CodecError, also when the bytes do not have the hash or the content is unusable.
+Asset decode_asset(const AssetData& data);
 
 Bytes encode_film(const Film& film);
 Film decode_film(ByteView bytes);

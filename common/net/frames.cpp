@@ -18,6 +18,12 @@ constexpr std::uint32_t payload_limit = 2 * max_text;
 template <>
 constexpr std::uint32_t payload_limit<SceneData> = 256u << 20;
 template <>
+constexpr std::uint32_t payload_limit<AssetData> = max_asset_bytes + 4096;
+template <>
+constexpr std::uint32_t payload_limit<FrameStart> = 1u << 20;  // max_assets hashes
+template <>
+constexpr std::uint32_t payload_limit<AssetEnd> = 1u << 20;
+template <>
 constexpr std::uint32_t payload_limit<Result> = tile_side* tile_side * 3 * sizeof(float) +
                                                 2048;  // + what zstd adds
 template <>
@@ -41,6 +47,11 @@ SharedBytes write_payload(Bytes& out, const Message& message) {
 }
 
 SharedBytes write_payload(Bytes& out, const SceneData& message) {
+  encode_to(out, message);
+  return message.bytes;
+}
+
+SharedBytes write_payload(Bytes& out, const AssetData& message) {
   encode_to(out, message);
   return message.bytes;
 }
@@ -76,11 +87,14 @@ void read_payload(ByteView payload, Hello& hello) {
   if (hello.protocol == protocol_version) expect_nothing(source.rest());
 }
 
-void read_payload(ByteView payload, SceneData& message) {
+template <class Data>  // SceneData, AssetData
+void read_data(ByteView payload, Data& message) {
   ByteSource source(payload);
-  message = decode_from<SceneData>(source);
+  message = decode_from<Data>(source);
   message.bytes = std::make_shared<const Bytes>(source.rest().begin(), source.rest().end());
 }
+void read_payload(ByteView payload, SceneData& message) { read_data(payload, message); }
+void read_payload(ByteView payload, AssetData& message) { read_data(payload, message); }
 
 void read_payload(ByteView payload, Result& result) {
   ByteSource source(payload);

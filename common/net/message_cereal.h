@@ -1,5 +1,5 @@
 // The fields of the messages, in the order in which they travel, and what makes their values sane.
-// SceneData's bytes and Result's pixels follow after the fields: see frames.cpp.
+// SceneData's and AssetData's bytes and Result's pixels follow after the fields: see frames.cpp.
 #pragma once
 #include <cmath>
 
@@ -14,7 +14,16 @@ template <class Archive>
 void hash_text(Archive& archive, std::string& value) {
   text(archive, value, max_hash);
   if (value.size() != max_hash || value.find_first_not_of("0123456789abcdef") != std::string::npos)
-    throw CodecError("a scene's hash must be 64 hexadecimal digits");
+    throw CodecError("a hash must be 64 hexadecimal digits");
+}
+
+template <class Archive>
+void hash_texts(Archive& archive, std::vector<std::string>& values, std::size_t most) {
+  auto count = static_cast<std::uint32_t>(values.size());
+  archive(count);
+  if (count > most) throw CodecError(std::to_string(count) + " hashes are too many");
+  if constexpr (is_loading<Archive>) values.resize(count);
+  for (std::string& value : values) hash_text(archive, value);
 }
 
 /// Protocol first: whatever else changes, the other side can read it and say what it expects.
@@ -39,6 +48,10 @@ void serialize(Archive& archive, SceneData& m) {
   hash_text(archive, m.hash);
 }
 template <class Archive>
+void serialize(Archive& archive, AssetData& m) {
+  hash_text(archive, m.hash);
+}
+template <class Archive>
 void serialize(Archive& archive, RenderSettings& s) {
   archive(s.width, s.height, s.spp);
   enumeration(archive, s.sampler, last_sampler);
@@ -57,6 +70,7 @@ void serialize(Archive& archive, FrameStart& m) {
   archive(m.job);
   hash_text(archive, m.scene_hash);
   archive(m.settings);
+  hash_texts(archive, m.assets, max_assets);
 }
 template <class Archive>
 void serialize(Archive& archive, Assignment& m) {
@@ -76,6 +90,10 @@ void serialize(Archive& archive, GiveBack& m) {
 template <class Archive>
 void serialize(Archive& archive, FrameEnd& m) {
   archive(m.job, m.frame);
+}
+template <class Archive>
+void serialize(Archive& archive, AssetEnd& m) {
+  hash_texts(archive, m.hashes, max_assets);
 }
 template <class Archive>
 void serialize(Archive& archive, Goodbye& m) {

@@ -4,13 +4,15 @@
 //   worker -> master  Hello         who I am, what I speak; the first frame, within 5 s
 //   master -> worker  Welcome       you are in (a name already taken is made unique)          or
 //   master -> worker  Refused       why, and what to do; the connection ends
+//   master -> worker  AssetData     once per mesh, Bezier surface or image and worker, before the first scene with it
 //   master -> worker  SceneData     once per scene and worker, before the first frame that shows it
-//   master -> worker  FrameStart    settings for a frame of a job, whose scene was already sent
+//   master -> worker  FrameStart    settings for a frame of a job, whose scene and assets were already sent
 //   master -> worker  Assignment    render these passes of this tile
 //   worker -> master  Result        the passes, pixel for pixel, with their exact counters; ends the lease
 //   worker -> master  GiveBack      leases it will not finish: clean stop, or it cannot render the job (why)
 //   master -> worker  Revoke        stop these leases now; nothing is answered for them
 //   master -> worker  FrameEnd      forget the frame, and its scene when no other frame of it is left
+//   master -> worker  AssetEnd      forget these assets: no job that goes on has them
 //   both              Heartbeat     each 0.5 s while nothing else is said; 2 s of silence end the connection
 //   both              Goodbye       a clean end, with the reason
 // A job has one frame or, when it is an animation, several; what a worker knows, it knows of a frame.
@@ -67,10 +69,20 @@ struct SceneData {
   std::string hash;   // SHA-256 of the bytes, hexadecimal
   SharedBytes bytes;  // encode_scene()
 };
+/// A part of scenes that travels by itself.
+struct AssetData {
+  std::string hash;   // SHA-256 of the bytes, hexadecimal
+  SharedBytes bytes;  // of asset_data()
+};
+struct AssetEnd {
+  std::vector<std::string> hashes;
+  bool operator==(const AssetEnd&) const = default;
+};
 struct FrameStart {
   JobId job{};
   std::string scene_hash;
-  RenderSettings settings;  // they name the frame
+  RenderSettings settings;            // they name the frame
+  std::vector<std::string> assets{};  // hashes of those that the scene shows
   bool operator==(const FrameStart&) const = default;
 };
 struct Assignment {
@@ -112,8 +124,8 @@ struct Goodbye {
   bool operator==(const Goodbye&) const = default;
 };
 
-using ToWorker =
-    std::variant<Welcome, Refused, SceneData, FrameStart, Assignment, Revoke, FrameEnd, Heartbeat, Goodbye>;
+using ToWorker = std::variant<Welcome, Refused, SceneData, FrameStart, Assignment, Revoke, FrameEnd,
+                              Heartbeat, Goodbye, AssetData, AssetEnd>;
 using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye>;
 
 }  // namespace rayfarm

@@ -22,6 +22,15 @@ void serialize(Archive& archive, Torus& t) {
   archive(t.R, t.r);
 }
 template <class Archive>
+void serialize(Archive& archive, Mesh& m) {
+  archive(m.asset);
+  boolean(archive, m.smooth);
+}
+template <class Archive>
+void serialize(Archive& archive, Bezier& b) {
+  archive(b.asset);
+}
+template <class Archive>
 void serialize(Archive& archive, Material& m) {
   archive(m.color, m.ambient, m.diffuse, m.specular, m.exponent, m.transmission, m.index, m.schlick);
 }
@@ -36,6 +45,18 @@ void serialize(Archive& archive, Stripes& s) {
 template <class Archive>
 void serialize(Archive& archive, Glow& g) {
   archive(g.shape, g.color, g.exponent);
+}
+template <class Archive>
+void serialize(Archive& archive, ImageTexture& i) {
+  archive(i.asset, i.fu, i.fv);
+  boolean(archive, i.smooth);
+}
+/// Its content travels by itself.
+template <class Archive>
+void serialize(Archive& archive, Asset& a) {
+  std::string digest = a.digest();
+  text(archive, digest, 64);
+  if constexpr (is_loading<Archive>) a = Asset(digest);
 }
 template <class Archive>
 void serialize(Archive& archive, Operation& o) {
@@ -87,7 +108,7 @@ void serialize(Archive& archive, Animation& a) {
 }
 template <class Archive>
 void serialize(Archive& archive, Scene& s) {
-  archive(s.nodes, s.materials, s.camera, s.background, s.lights, s.image, s.animation);
+  archive(s.nodes, s.materials, s.assets, s.camera, s.background, s.lights, s.image, s.animation);
   boolean(archive, s.nested_media);
 }
 

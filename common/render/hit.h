@@ -17,6 +17,8 @@ struct Hit {
   bool leaf_entering = false;  // the ray goes into the leaf
   bool entering = false;       // the ray goes into the material: it came from outside
   std::uint32_t inner = unknown_medium, outer = unknown_medium;  // what fills both sides: nested media
+  bool is_sheet = false;         // the leaf has no inside: what lies behind it is not known
+  std::uint32_t part = no_part;  // of the leaf, where it has such
 };
 
 Hit hit_at(const World::Parts& world, const RayQuery& ray, const Boundary& boundary);

@@ -52,12 +52,41 @@ ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery
   return start_of_crossings(crossings_ahead(leaf, number, q), number);
 }
 
+/// That of a leaf with facets, which the ray passes in one of its parts.
+Boundary boundary_at(const FacetCrossing& c, std::uint32_t leaf, bool entering) {
+  Boundary boundary{c.t, c.error, leaf, entering, entering};
+  boundary.part = c.part;
+  return boundary;
+}
+
+/// A leaf with facets alone: mostly the nearest crossing tells all.
+template <class Csg>
+ObjectStart start_of_facets(const Leaf& leaf, std::uint32_t number, const RayQuery& q, double t_max,
+                            Csg& ws) {
+  const Nearest nearest = nearest_crossing(*leaf.facets, to_local(leaf, q), departure_from(number, q), t_max);
+  if (nearest.is_sure) {
+    if (!nearest.crossing) return {};
+    const bool entering = nearest.crossing->entering;
+    return {!entering && !leaf.is_sheet(), true, boundary_at(*nearest.crossing, number, entering)};
+  }
+  find_path_ahead(leaf, number, q, ws.path);
+  const bool inside = ws.path.starts_inside;
+  const std::vector<FacetCrossing>& at = ws.path.crossings;
+  for (std::size_t i = 0, last = 0; i < at.size(); i = last) {
+    double hi = at[i].hi();
+    for (last = i + 1; last < at.size() && at[last].lo() <= hi; ++last) hi = greatest(hi, at[last].hi());
+    if ((last - i) % 2 == 1) return {inside, true, boundary_at(at[i], number, !inside)};
+  }
+  return {inside, false, {}};
+}
+
 template <class Csg>
 ObjectStart start_of(const World::Parts& w, const ObjectRef& ref, const RayQuery& q, double t_max,
                      WorkspaceWith<Csg>& ws) {
   if constexpr (Csg::counts_tests)
     if (ref.leaf != no_leaf) ws.csg.leaf_tested(crossings_ahead(w.leaves[ref.leaf], ref.leaf, q));
   if (ref.leaf != no_leaf) return start_of_leaf(w.leaves[ref.leaf], ref.leaf, q);
+  if (ref.facets != no_leaf) return start_of_facets(w.leaves[ref.facets], ref.facets, q, t_max, ws.csg);
   const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
   ObjectStart start;
   start.inside = gather(items, w.leaves, q, t_max, ws.csg);
@@ -130,6 +159,11 @@ std::optional<Boundary> first_of_union(const World::Parts& w, const RayQuery& q,
 template <class Csg>
 std::optional<Boundary> blocker_in(const World::Parts& w, const ObjectRef& ref, const RayQuery& q,
                                    WorkspaceWith<Csg>& ws) {
+  if (ref.facets != no_leaf) {  // all of it casts shadows, or none
+    const ObjectStart start = start_of(w, ref, q, 1.0, ws);
+    if (!start.has_boundary || start.first.t > 1 || !w.surfaces[ref.facets].casts_shadow) return std::nullopt;
+    return start.first;
+  }
   const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
   gather(items, w.leaves, q, 1.0, ws.csg);
   Boundary b;

@@ -131,7 +131,7 @@ class Tracer {
   }
 
   Vec3d radiance_at(const Hit& hit, const Ray& ray, std::uint32_t depth, double importance) {
-    if (contradicts(ray, hit)) observer.lost();
+    if (contradicts(ray, hit) && !hit.is_sheet) observer.lost();
     const Vec3d to_viewer = -ray.direction;
     // Grazing, the rounded cosine can have the wrong sign; the side is known from the boundary.
     const double rounded = dot(hit.normal, to_viewer);

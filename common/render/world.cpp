@@ -102,8 +102,11 @@ class Builder {
                      moved(combined.parent, parent_from_node)};
     } else {
       const Solid& solid = std::get<Solid>(node(number).content);
-      parts_.items[index].leaf = add_leaf(solid, inherited);
-      added.boxes = {bounds_of(solid, inherited.world_from_parent), bounds_of(solid, parent_from_node)};
+      const std::uint32_t* asset = asset_of(solid);
+      const Facets* facets = asset ? parts_.scene.assets[*asset].facets() : nullptr;
+      parts_.items[index].leaf = add_leaf(make_leaf(solid, inherited.world_from_parent, facets), inherited);
+      added.boxes = {bounds_of(solid, inherited.world_from_parent, facets),
+                     bounds_of(solid, parent_from_node, facets)};
     }
     parts_.items[index].box = added.boxes.world;
     parts_.items[index].next = static_cast<std::uint32_t>(parts_.items.size()) - object;
@@ -116,8 +119,8 @@ class Builder {
     return op == CsgOp::subtract ? so_far : hull(so_far, box);
   }
 
-  std::uint32_t add_leaf(const Solid& solid, const Inherited& inherited) {
-    parts_.leaves.push_back(make_leaf(solid, inherited.world_from_parent));
+  std::uint32_t add_leaf(const Leaf& leaf, const Inherited& inherited) {
+    parts_.leaves.push_back(leaf);
     parts_.placements.push_back(inherited.world_from_parent);
     LeafSurface surface;
     surface.material = inherited.material;
@@ -144,10 +147,12 @@ class Builder {
     for (std::uint32_t i = 0; i < parts_.objects.size(); ++i) {
       const CsgItem& root = parts_.items[parts_.objects[i].first_item];
       if (root.box.low.x == infinity) continue;  // nowhere
+      const bool has_facets = root.leaf != no_leaf && parts_.leaves[root.leaf].facets;
+      const ObjectRef ref = has_facets ? ObjectRef{i, no_leaf, root.leaf} : ObjectRef{i, root.leaf};
       if (root.box.is_bounded())
-        bounded.push_back({i, root.leaf}), boxes.push_back(root.box);
+        bounded.push_back(ref), boxes.push_back(root.box);
       else
-        parts_.endless_objects.push_back({i, root.leaf});
+        parts_.endless_objects.push_back(ref);
     }
     parts_.bvh = Bvh(boxes);
     for (const std::uint32_t number : parts_.bvh.order()) parts_.bounded_objects.push_back(bounded[number]);

@@ -29,7 +29,8 @@ struct WorldObject {
 /// An object as the hierarchy's leaves name it.
 struct ObjectRef {
   std::uint32_t object = 0;
-  std::uint32_t leaf = no_leaf;  // when the object is a single leaf
+  std::uint32_t leaf = no_leaf;    // when the object is a single leaf
+  std::uint32_t facets = no_leaf;  // when it is a single leaf with facets
 };
 
 struct World::Parts {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -95,6 +96,54 @@ std::string fault_of(const Glow& glow, const Node& node) {
   return std::visit(SolidFault{}, glow.shape);
 }
 
+// Assets. ---------------------------------------------------------------------------------------------------
+
+/// What is wrong with the use of an asset as that kind of content; empty when nothing is.
+template <class Content>
+std::string fault_of_use(const Scene& scene, std::uint32_t asset, std::string_view kind) {
+  if (asset >= scene.assets.size())
+    return "asset " + std::to_string(asset) + " does not exist, the scene has " +
+           std::to_string(scene.assets.size());
+  if (std::holds_alternative<Content>(*scene.assets[asset].content())) return {};
+  return "asset " + std::to_string(asset) + " is no " + std::string(kind);
+}
+
+std::string fault_of_asset(const Scene& scene, const Solid& solid) {
+  if (const auto* mesh = std::get_if<Mesh>(&solid))
+    return fault_of_use<TriangleMesh>(scene, mesh->asset, "mesh");
+  if (const auto* bezier = std::get_if<Bezier>(&solid))
+    return fault_of_use<BezierGrid>(scene, bezier->asset, "Bezier surface");
+  return {};
+}
+
+/// Tells which assets are sheets: surfaces that do not enclose a volume. Looks at each once, and only when asked.
+class Sheets {
+ public:
+  explicit Sheets(const Scene& scene) : scene_(scene) {}
+  bool contain(std::uint32_t asset) {
+    const auto [known, is_new] = known_.try_emplace(asset);
+    if (is_new) known->second = std::visit(IsSheet{}, *scene_.assets[asset].content());
+    return known->second;
+  }
+
+ private:
+  struct IsSheet {
+    bool operator()(const Image&) const { return false; }
+    bool operator()(const TriangleMesh& mesh) const { return !is_closed(mesh); }
+    bool operator()(const BezierGrid& grid) const { return !is_closed(grid); }
+  };
+  const Scene& scene_;
+  std::map<std::uint32_t, bool> known_;
+};
+
+void check_assets(const Scene& scene) {
+  if (scene.assets.size() > max_assets)
+    throw SceneError("scene: " + std::to_string(scene.assets.size()) + " assets are too many, at most " +
+                     std::to_string(max_assets) + " are allowed");
+  for (std::size_t i = 0; i < scene.assets.size(); ++i)
+    if (!scene.assets[i].content()) fail("asset " + std::to_string(i), "its content is not here");
+}
+
 /// What is wrong with a node, its place in the tree aside; empty when nothing is. The common case makes no
 /// text.
 std::string fault_of(const Scene& scene, const Node& node, const Affine& world_from_node) {
@@ -104,8 +153,9 @@ std::string fault_of(const Scene& scene, const Node& node, const Affine& world_f
     if (operation->children == 0) return "an operation needs at least one child";
   } else {
     const auto* glow = std::get_if<Glow>(&node.content);
-    std::string fault =
-        glow ? fault_of(*glow, node) : std::visit(SolidFault{}, std::get<Solid>(node.content));
+    const auto* solid = std::get_if<Solid>(&node.content);
+    std::string fault = glow ? fault_of(*glow, node) : std::visit(SolidFault{}, *solid);
+    if (fault.empty() && solid) fault = fault_of_asset(scene, *solid);
     if (!fault.empty()) return fault;
   }
   if (!is_invertible(node.parent_from_node))
@@ -119,6 +169,27 @@ std::string fault_of(const Scene& scene, const Node& node, const Affine& world_f
   return {};
 }
 
+struct TextureCheck {
+  const Scene& scene;
+  const std::string& place;
+  void operator()(const Checker& checker) const { check_squares(checker, "the checker's "); }
+  void operator()(const Stripes& stripes) const { check_squares(stripes, "the stripes' "); }
+  void operator()(const ImageTexture& image) const {
+    if (!std::isfinite(image.fu) || !std::isfinite(image.fv))
+      fail(place, "the image's frequencies must be finite");
+    if (const std::string fault = fault_of_use<Image>(scene, image.asset, "image"); !fault.empty())
+      fail(place, fault);
+  }
+
+ private:
+  template <class Squares>
+  void check_squares(const Squares& texture, const std::string& name) const {
+    if (!std::isfinite(texture.fu) || !std::isfinite(texture.fv))
+      fail(place, name + "frequencies must be finite");
+    check_weight(texture.color, place, name + "color");
+  }
+};
+
 void check_surface(const Scene& scene, std::size_t index) {
   const Node& node = scene.nodes[index];
   if (!node.color && node.textures.empty()) return;
@@ -127,15 +198,7 @@ void check_surface(const Scene& scene, std::size_t index) {
   if (node.textures.size() > max_textures)
     fail(place, "at most " + std::to_string(max_textures) + " textures on a node, has " +
                     std::to_string(node.textures.size()));
-  for (const Texture& texture : node.textures) {
-    const std::string name = std::holds_alternative<Checker>(texture) ? "the checker's " : "the stripes' ";
-    std::visit(
-        [&](const auto& t) {
-          if (!std::isfinite(t.fu) || !std::isfinite(t.fv)) fail(place, name + "frequencies must be finite");
-          check_weight(t.color, place, name + "color");
-        },
-        texture);
-  }
+  for (const Texture& texture : node.textures) std::visit(TextureCheck{scene, place}, texture);
 }
 
 void check_glow(const Glow& glow, const std::string& place, bool in_unions) {
@@ -157,6 +220,7 @@ void check_tree(const Scene& scene) {
   };
   std::vector<Open> open{{1, Affine{}}};
   std::size_t glows = 0;
+  Sheets sheets(scene);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     while (!open.empty() && open.back().children_left == 0) open.pop_back();
     if (open.empty()) fail(place_of(scene, i), "does not belong to the tree, which is complete before it");
@@ -171,6 +235,13 @@ void check_tree(const Scene& scene) {
       if (++glows > max_glows)
         fail(place_of(scene, i), "at most " + std::to_string(max_glows) + " glow shells are allowed");
     }
+    const auto* solid = std::get_if<Solid>(&scene.nodes[i].content);
+    const std::uint32_t* asset = solid ? asset_of(*solid) : nullptr;
+    if (asset && (scene.nested_media || !open.back().in_unions) && sheets.contain(*asset))
+      fail(place_of(scene, i),
+           "does not enclose a volume (it has open edges), so it cannot be part of an intersection, "
+           "difference "
+           "or xor, nor of a scene with nested media; close it, or put it in a union");
 
     if (const auto* operation = std::get_if<Operation>(&scene.nodes[i].content)) {
       if (open.size() >= max_tree_depth)
@@ -269,6 +340,7 @@ void check_animation(const Animation& a) {
 }  // namespace
 
 void check(const Scene& scene) {
+  check_assets(scene);
   check_tree(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     check_material(scene.materials[i], "material " + std::to_string(i));

@@ -15,6 +15,7 @@
 
 #include "common/geometry/solid.h"
 #include "common/math/affine.h"
+#include "common/scene/asset.h"
 
 namespace rayfarm {
 
@@ -44,7 +45,14 @@ struct Stripes {
   glm::dvec3 color{1.0};
   bool operator==(const Stripes&) const = default;
 };
-using Texture = std::variant<Checker, Stripes>;
+/// An image over each unit square of (u, v), its lower left corner at (0, 0); repeated fu, fv times in it.
+struct ImageTexture {
+  std::uint32_t asset = 0;  // index into Scene::assets
+  double fu = 1, fv = 1;
+  bool smooth = true;  // bilinear between the pixels' middles; else the nearest pixel
+  bool operator==(const ImageTexture&) const = default;
+};
+using Texture = std::variant<Checker, Stripes, ImageTexture>;
 
 // The tree.
 
@@ -157,6 +165,7 @@ struct Animation {
 struct Scene {
   std::vector<Node> nodes;  // the tree in preorder; nodes[0] is the root
   std::vector<Material> materials;
+  std::vector<Asset> assets;  // no two alike
   Camera camera;
   glm::dvec3 background{0.0, 0.02, 0.03};
   std::vector<Light> lights;
@@ -178,9 +187,11 @@ constexpr std::uint32_t max_tree_depth = 256;
 constexpr std::size_t max_lights = 1024;
 constexpr std::size_t max_glows = 1024;
 constexpr std::size_t max_textures = 16;  // of one node
+constexpr std::size_t max_assets = 10'000;
 
 /// Throws SceneError unless the scene can be rendered: the tree closes, indices are in range, numbers are
-/// finite and in range, every leaf's transform can be inverted, the camera looks somewhere.
+/// finite and in range, every leaf's transform can be inverted, the camera looks somewhere, all assets are here and are
+/// what their users need; sheets stand in unions only.
 void check(const Scene& scene);
 
 }  // namespace rayfarm

@@ -10,12 +10,6 @@
 namespace rayfarm {
 namespace {
 
-TileRenderer made_ready(const SceneData& data, const PrepareScene& prepare) {
-  if (sha256_hex(*data.bytes) != data.hash)
-    throw CodecError("the scene's bytes do not have the scene's hash");
-  return prepare(decode_scene(*data.bytes));
-}
-
 FrameId frame_of(const Assignment& assignment) { return {assignment.job, assignment.frame}; }
 
 /// Empty unless the assignment cannot be rendered.
@@ -47,9 +41,25 @@ void Crew::begin(Answer answer) {
   stop_running();
   frames_.clear();
   for (auto& [hash, scene] : scenes_) discard(std::move(scene));
+  for (auto& [hash, asset] : assets_) discard(std::move(asset));
   scenes_.clear();
+  assets_.clear();
   taking_ = true;
   answer_ = std::move(answer);
+}
+
+void Crew::take(const AssetData& asset) {
+  const Lock lock(mutex_);
+  const auto [known, is_new] = assets_.try_emplace(asset.hash);
+  if (!is_new) return;
+  known->second = std::make_shared<AssetState>();
+  known->second->data = asset;
+}
+
+void Crew::take(const AssetEnd& end) {
+  const Lock lock(mutex_);
+  for (const std::string& hash : end.hashes)
+    if (const auto node = assets_.extract(hash)) discard(node.mapped());
 }
 
 void Crew::take(const SceneData& scene) {
@@ -64,7 +74,11 @@ void Crew::take(const FrameStart& start) {
   auto scene = found != scenes_.end()
                    ? found->second
                    : std::make_shared<SceneState>(SceneState{{}, {}, {}, "its scene was never sent"});
-  frames_.insert_or_assign({start.job, start.settings.frame}, Frame{start.settings, std::move(scene)});
+  Assets assets;
+  for (const std::string& hash : start.assets)
+    if (const auto asset = assets_.find(hash); asset != assets_.end()) assets.push_back(asset->second);
+  frames_.insert_or_assign({start.job, start.settings.frame},
+                           Frame{start.settings, std::move(scene), std::move(assets)});
 }
 
 void Crew::take(const Assignment& assignment) {
@@ -120,8 +134,8 @@ std::vector<LeaseId> Crew::abandon() {
 
 void Crew::give_back(LeaseId lease, std::string reason) { answer_(GiveBack{{lease}, std::move(reason)}); }
 
-void Crew::discard(std::shared_ptr<SceneState> scene) {
-  discarded_.push_back(std::move(scene));
+void Crew::discard(std::shared_ptr<void> scene_or_asset) {
+  discarded_.push_back(std::move(scene_or_asset));
   changed_.notify_one();
 }
 
@@ -163,7 +177,7 @@ bool Crew::work_once(Lock& lock) {
     Frame frame = frames_.at(frame_of(*next));
     if (frame.scene->preparing) continue;
     if (!frame.scene->is_settled()) {
-      prepare(lock, frame.scene);
+      prepare(lock, frame);
       return true;
     }
     const Assignment assignment = *next;
@@ -175,14 +189,31 @@ bool Crew::work_once(Lock& lock) {
   return false;
 }
 
-void Crew::prepare(Lock& lock, const std::shared_ptr<SceneState>& scene) {
+const Asset& Crew::AssetState::decoded() {
+  std::call_once(once, [this] {
+    asset = decode_asset(data);
+    data.bytes.reset();
+  });
+  return asset;
+}
+
+TileRenderer Crew::made_ready(const SceneData& scene, const Assets& assets, const PrepareScene& prepare) {
+  if (sha256_hex(*scene.bytes) != scene.hash)
+    throw CodecError("the scene's bytes do not have the scene's hash");
+  std::vector<Asset> decoded;
+  for (const auto& asset : assets) decoded.push_back(asset->decoded());
+  return prepare(decode_scene(*scene.bytes, decoded));
+}
+
+void Crew::prepare(Lock& lock, const Frame& frame) {
+  const std::shared_ptr<SceneState>& scene = frame.scene;
   scene->preparing = true;
   const SceneData data = scene->data;
   lock.unlock();
   TileRenderer renderer;
   std::string fault;
   try {
-    renderer = made_ready(data, prepare_);
+    renderer = made_ready(data, frame.assets, prepare_);
   } catch (const std::exception& error) {
     fault = error.what();
   }

@@ -38,6 +38,8 @@ class Crew {
   /// answered to the old one.
   void begin(Answer answer);
 
+  void take(const AssetData& asset);
+  void take(const AssetEnd& end);
   void take(const SceneData& scene);
   void take(const FrameStart& start);
   void take(const Assignment& assignment);
@@ -50,6 +52,14 @@ class Crew {
   std::vector<LeaseId> abandon();
 
  private:
+  /// Decoded once, by the first scene that shows it.
+  struct AssetState {
+    AssetData data;
+    std::once_flag once;
+    Asset asset;
+    const Asset& decoded();
+  };
+  using Assets = std::vector<std::shared_ptr<AssetState>>;
   struct SceneState {
     SceneData data;
     bool preparing = false;
@@ -60,16 +70,18 @@ class Crew {
   struct Frame {
     RenderSettings settings;
     std::shared_ptr<SceneState> scene;
+    Assets assets;
   };
   using Stop = std::shared_ptr<std::atomic<bool>>;
   using Lock = std::unique_lock<std::mutex>;
 
   void work();
   bool work_once(Lock& lock);
-  void prepare(Lock& lock, const std::shared_ptr<SceneState>& scene);
+  void prepare(Lock& lock, const Frame& frame);
+  static TileRenderer made_ready(const SceneData& scene, const Assets& assets, const PrepareScene& prepare);
   void render(Lock& lock, const Assignment& assignment, const Frame& frame);
   void give_back(LeaseId lease, std::string reason);
-  void discard(std::shared_ptr<SceneState> scene);
+  void discard(std::shared_ptr<void> scene_or_asset);
   std::vector<LeaseId> drop_waiting();
   std::vector<LeaseId> stop_running();
 
@@ -82,10 +94,11 @@ class Crew {
   Answer answer_;
   bool taking_ = true, ending_ = false;
   std::map<std::string, std::shared_ptr<SceneState>> scenes_;  // by hash
+  std::map<std::string, std::shared_ptr<AssetState>> assets_;  // by hash
   std::map<FrameId, Frame> frames_;
   std::deque<Assignment> waiting_;
   std::map<LeaseId, Stop> running_;
-  std::vector<std::shared_ptr<SceneState>> discarded_;  // freed by a thread of ours: that takes long
+  std::vector<std::shared_ptr<void>> discarded_;  // freed by a thread of ours: that takes long
 
   std::vector<std::jthread> threads_;  // last: the threads end before what they use
 };

@@ -93,9 +93,9 @@ ScriptRequest script_of(const PictureOptions& options) {
   return read_script(options.scene_file, params_of(options.params));
 }
 
-PreparedScene prepared(Scene scene, const RenderSettings& settings) {
+PreparedScene prepared(ScriptResult result, const RenderSettings& settings) {
   PreparedScene prepared;
-  prepared.scene = std::move(scene);
+  prepared.scene = std::move(result.scene), prepared.assets = std::move(result.assets);
   prepared.settings = settings;
   prepared.bytes = encode_scene(prepared.scene);
   prepared.hash = sha256_hex(prepared.bytes);
@@ -106,9 +106,9 @@ PreparedScene prepare(const PictureOptions& options) {
   settings_of(options, {});  // a mistake in the options is told before the script runs
   ScriptRequest script = script_of(options);
   script.frame = options.frame.value_or(0);
-  Scene scene = evaluate(script).scene;
-  const RenderSettings settings = settings_of(options, scene.image);
-  return prepared(std::move(scene), settings);
+  ScriptResult result = evaluate(script);
+  const RenderSettings settings = settings_of(options, result.scene.image);
+  return prepared(std::move(result), settings);
 }
 
 }  // namespace rayfarm

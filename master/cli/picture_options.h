@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/net/messages.h"
 #include "common/render/settings.h"
 #include "master/files/image_file.h"
 #include "master/script/script.h"
@@ -42,12 +43,13 @@ struct PreparedScene {
   Scene scene;
   std::vector<std::uint8_t> bytes;  // encode_scene()
   std::string hash;                 // of the bytes
+  std::vector<AssetData> assets;    // those of the scene
   RenderSettings settings;
 };
 
 /// The script and its parameters. Throws SceneError or SettingsError.
 ScriptRequest script_of(const PictureOptions& options);
-PreparedScene prepared(Scene scene, const RenderSettings& settings);
+PreparedScene prepared(ScriptResult result, const RenderSettings& settings);
 /// Evaluates the script. Throws SceneError or SettingsError.
 PreparedScene prepare(const PictureOptions& options);
 

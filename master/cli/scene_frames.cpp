@@ -20,11 +20,11 @@ SceneFrames::SceneFrames(const PictureOptions& options) : range_(range_of(option
   first.frame = range_.first;
   settings_of(first, {});  // a mistake in the options is told before the script runs
   script_ = script_of(options);
-  Scene scene = evaluated(range_.first);
-  if (options.frames) expect_frames(script_.name, scene, range_);
-  script_.animation = scene.animation;
-  settings_ = settings_of(first, scene.image);
-  first_ = prepared(std::move(scene), settings_);
+  ScriptResult result = evaluated(range_.first);
+  if (options.frames) expect_frames(script_.name, result.scene, range_);
+  script_.animation = result.scene.animation;
+  settings_ = settings_of(first, result.scene.image);
+  first_ = prepared(std::move(result), settings_);
 }
 
 SceneFrames::~SceneFrames() { stopped_ = true; }
@@ -33,11 +33,11 @@ double SceneFrames::frames_per_second() const {
   return script_.animation ? script_.animation->fps / range_.step : Animation{}.fps;
 }
 
-Scene SceneFrames::evaluated(std::uint32_t frame) const {
+ScriptResult SceneFrames::evaluated(std::uint32_t frame) const {
   ScriptRequest script = script_;
   script.frame = frame;
   try {
-    return evaluate(script, {}, [this] { return stopped_ || interrupted(); }).scene;
+    return evaluate(script, {}, [this] { return stopped_ || interrupted(); });
   } catch (const SceneError& error) {
     if (interrupted()) throw CommandError(ExitCode::interrupted, "interrupted; nothing was written");
     if (frame == range_.first) throw;

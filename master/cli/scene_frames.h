@@ -29,7 +29,7 @@ class SceneFrames {
   void skip_to(std::uint32_t place);
 
  private:
-  Scene evaluated(std::uint32_t frame) const;
+  ScriptResult evaluated(std::uint32_t frame) const;
   PreparedScene made(std::uint32_t frame) const;
 
   ScriptRequest script_;

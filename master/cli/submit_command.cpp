@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "common/net/codec.h"
 #include "master/cli/commands.h"
 #include "master/cli/frame_files.h"
 #include "master/cli/interrupt.h"
@@ -37,6 +38,18 @@ SceneData sent_scene(PreparedScene& scene) {
   return {scene.hash, std::make_shared<const std::vector<std::uint8_t>>(std::move(scene.bytes))};
 }
 
+/// Those that the master has not got.
+void upload(const std::vector<AssetData>& assets) {
+  for (const AssetData& asset : assets) {
+    if (get_json("/api/v1/assets/" + asset.hash).value("is_here", false)) continue;
+    if (asset.bytes->size() > largest_scene)
+      throw CommandError(ExitCode::usage, "a mesh or picture of the scene takes " +
+                                              std::to_string(asset.bytes->size() >> 20) + " MB; at most " +
+                                              std::to_string(largest_scene >> 20) + " can be submitted");
+    post_json("/api/v1/assets", {{"data", base64(*asset.bytes)}});
+  }
+}
+
 JobSpec spec_of(const SubmitArguments& a, const FrameRange& frames, PreparedScene first) {
   JobSpec spec;
   spec.name = a.name.empty() ? std::filesystem::path(a.picture.scene_file).stem().string() : a.name;
@@ -44,6 +57,7 @@ JobSpec spec_of(const SubmitArguments& a, const FrameRange& frames, PreparedScen
   SceneData scene = sent_scene(first);
   spec.scene_hash = std::move(scene.hash);
   spec.scene_bytes = std::move(scene.bytes);
+  spec.assets = std::move(first.assets);
   spec.settings = first.settings;
   if (a.picture.frames) spec.frames = frames;
   spec.priority = a.priority;
@@ -83,7 +97,8 @@ json send_frames(SceneFrames& frames, json job, Watch& watch) {
   frames.skip_to(job.at("frames").at("sent"));
   while (job.at("frames").at("sent") < frames.range().count()) {
     PreparedScene scene = frames.take();
-    const SubmittedFrame frame{scene.settings.frame, sent_scene(scene)};
+    upload(scene.assets);
+    const SubmittedFrame frame{scene.settings.frame, sent_scene(scene), scene.assets};
     job = post_json_patiently(target + "/frames", to_json(frame), while_full);
     watch.news(job);
   }
@@ -120,7 +135,9 @@ ExitCode submit(const SubmitArguments& a) {
   check_files(a);
   note_interrupts();
   SceneFrames frames(a.picture);
-  const json submitted = post_json("/api/v1/jobs", to_json(spec_of(a, frames.range(), frames.take())));
+  const JobSpec spec = spec_of(a, frames.range(), frames.take());
+  upload(spec.assets);
+  const json submitted = post_json("/api/v1/jobs", to_json(spec));
   const JobNumber id = submitted.at("id");
   if (!a.json) print_json(id);
   std::fflush(stdout);  // the frames' scenes may take long to send

@@ -43,11 +43,37 @@ std::vector<Stretch> material_along(const World::Parts& world, Ray ray) {
     const RayQuery query(ray);
     const std::optional<Boundary> boundary = first_boundary(world, query, workspace);
     if (!boundary) break;
-    walk.cross(t += boundary->t);
     const Hit hit = hit_at(world, query, *boundary);
+    t += boundary->t;
+    if (!hit.is_sheet) walk.cross(t);
     ray = ray_from(hit, ray.direction, !hit.entering);
   }
   return std::move(walk).stretches();
+}
+
+}  // namespace
+
+namespace {
+
+/// Where a leaf's surface is ahead; both sides alternate.
+struct LeafPath {
+  bool starts_inside = false;
+  std::vector<double> crossings;
+};
+
+LeafPath path_of(const Leaf& leaf, std::uint32_t number, const RayQuery& query) {
+  LeafPath path;
+  if (leaf.facets) {
+    FacetPath found;
+    find_path_ahead(leaf, number, query, found);
+    path.starts_inside = found.starts_inside;
+    for (const FacetCrossing& c : found.crossings) path.crossings.push_back(c.t);
+  } else {
+    const Crossings found = crossings_ahead(leaf, number, query);
+    path.starts_inside = found.starts_inside;
+    for (int i = 0; i < found.count; ++i) path.crossings.push_back(found.at[static_cast<std::size_t>(i)].t);
+  }
+  return path;
 }
 
 }  // namespace
@@ -57,10 +83,10 @@ CsgStory csg_story(const World& world, const Ray& ray) {
   const RayQuery query(ray);
   CsgStory story;
   for (std::uint32_t leaf = 0; leaf < parts.leaves.size(); ++leaf) {
-    const Crossings crossings = crossings_ahead(parts.leaves[leaf], leaf, query);
-    if (!crossings.starts_inside && crossings.count == 0) continue;
-    Walk walk(crossings.starts_inside);
-    for (int i = 0; i < crossings.count; ++i) walk.cross(crossings.at[static_cast<std::size_t>(i)].t);
+    const LeafPath path = path_of(parts.leaves[leaf], leaf, query);
+    if (!path.starts_inside && path.crossings.empty()) continue;
+    Walk walk(path.starts_inside);
+    for (const double t : path.crossings) walk.cross(t);
     story.leaves.push_back({leaf, std::move(walk).stretches()});
   }
   story.material = material_along(parts, ray);

@@ -45,7 +45,7 @@ Diagnostics::Diagnostics(unsigned threads, Clock now, const DiagnosticsLimits& l
 Diagnostics::~Diagnostics() = default;
 
 std::shared_ptr<const ReadyScene> Diagnostics::scene(const Subject& subject) {
-  return worlds_.get(subject.scene_hash, subject.scene);
+  return worlds_.get({subject.scene_hash, subject.scene}, subject.assets);
 }
 
 PixelTrace Diagnostics::trace(const Subject& subject, Pixel pixel, const SampleChoice& choice) {

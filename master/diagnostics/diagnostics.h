@@ -22,6 +22,7 @@ struct Subject {
   std::string scene_hash;  // of the bytes
   SharedBytes scene;       // encode_scene()
   RenderSettings settings;
+  std::vector<AssetData> assets{};  // that the scene shows
 };
 
 constexpr std::size_t most_rays_recorded = 20'000;  // of a trace

@@ -5,6 +5,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,8 @@ class WorldCache {
   };
   explicit WorldCache(Limits limits) : limits_(limits) {}
 
-  /// `hash` is that of the bytes. Throws what the scene's decoding throws.
-  std::shared_ptr<const ReadyScene> get(const std::string& hash, const SharedBytes& bytes);
+  /// The assets are those that the scene shows. Throws what the decoding throws.
+  std::shared_ptr<const ReadyScene> get(const SceneData& scene, std::span<const AssetData> assets = {});
 
  private:
   using Future = std::shared_future<std::shared_ptr<const ReadyScene>>;
@@ -51,8 +52,9 @@ class WorldCache {
   };
 
   std::list<Entry>::iterator find(const std::string& hash);
-  std::shared_ptr<const ReadyScene> build(const std::string& hash, const SharedBytes& bytes,
+  std::shared_ptr<const ReadyScene> build(const SceneData& scene, std::span<const AssetData> assets,
                                           std::promise<std::shared_ptr<const ReadyScene>> promise);
+  Asset asset_of(const AssetData& data);
   void drop_old();
 
   const Limits limits_;

@@ -5,10 +5,16 @@
 namespace rayfarm {
 namespace {
 
-/// In ../lib/rayfarm as seen from the program's folder, both where it was built and where it is installed.
-const ImageModule& open_module() {
+/// Beside the program, or in ../lib/rayfarm as seen from its folder, both where it was built and where it is installed.
+std::filesystem::path module_file() {
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  const std::filesystem::path file = programs.parent_path() / "lib" / "rayfarm" / "rayfarm-images.so";
+  const std::filesystem::path beside = programs / "rayfarm-images.so";
+  if (std::filesystem::exists(beside)) return beside;
+  return programs.parent_path() / "lib" / "rayfarm" / "rayfarm-images.so";
+}
+
+const ImageModule& open_module() {
+  const std::filesystem::path file = module_file();
   void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr)
     throw FileError("cannot open the image module: " + std::string(::dlerror()) + "; reinstall rayfarm");

@@ -5,8 +5,10 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "common/scene/image.h"
 #include "master/files/image_file.h"
 
 namespace rayfarm {
@@ -20,6 +22,8 @@ struct ImageModule {
   /// The header's strings come as facts; a PNG's curve as "oiio:ColorSpace".
   Picture (*read)(const std::filesystem::path& file);
   ChannelGroup (*channels)(const std::filesystem::path& file, const std::vector<std::string>& names);
+  /// From the bytes of a file of that name; opens none.
+  Image (*texture)(const std::string& name, std::string_view bytes);
 };
 
 /// The module, opened at the first call. Throws FileError when it is not installed.

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <memory>
 
+#include "common/math/deterministic.h"
 #include "master/files/image_module.h"
 
 namespace rayfarm {
@@ -140,11 +141,64 @@ ChannelGroup channels(const std::filesystem::path& file, const std::vector<std::
   return {names, image.channels(which)};
 }
 
+// Textures. ------------------------------------------------------------------------------------------------
+
+/// Red, green and blue of all pixels, in the type T.
+template <class T>
+std::vector<T> rgb_values(OIIO::ImageInput& in, const std::string& name) {
+  const OIIO::ImageSpec spec = in.spec();
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  std::vector<T> stored(pixels * channels);
+  const OIIO::TypeDesc type = sizeof(T) == 1 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+  if (!in.read_image(0, 0, 0, spec.nchannels, type, stored.data()))
+    throw FileError(name + " is no whole image: " + in.geterror());
+  const std::vector<int> which =
+      channels == 4 && spec.channelindex("R") < 0 ? std::vector{0, 1, 2} : rgb_channels(spec, name);
+  std::vector<T> rgb;
+  rgb.reserve(3 * pixels);
+  for (std::size_t pixel = 0; pixel < stored.size(); pixel += channels)
+    for (const int channel : which) rgb.push_back(stored[pixel + static_cast<std::size_t>(channel)]);
+  return rgb;
+}
+
+float linear_of_srgb(float code) {
+  const double x = code;
+  return static_cast<float>(x <= 0.04045 ? x / 12.92 : deterministic::pow((x + 0.055) / 1.055, 2.4));
+}
+
+Image texture(const std::string& name, std::string_view bytes) {
+  OIIO::attribute("threads", 1);  // the limited child may have no others
+  OIIO::attribute("exr_threads", -1);
+  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // it only reads
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(name, nullptr, &memory);
+  if (!in) throw FileError(name + " is no image that can be read: " + OIIO::geterror());
+  const OIIO::ImageSpec spec = in->spec();
+  const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  if (spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64 || pixels > max_image_pixels)
+    throw FileError(name + " is larger than a texture may be: " + std::to_string(max_image_pixels >> 20) +
+                    " megapixels");
+
+  Image image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
+  if (spec.format == OIIO::TypeDesc::UINT8) {
+    image.values = rgb_values<std::uint8_t>(*in, name);
+    return image;
+  }
+  std::vector<float> values = rgb_values<float>(*in, name);
+  const std::string space =
+      spec.get_string_attribute("oiio:ColorSpace", spec.format.is_floating_point() ? "Linear" : "sRGB");
+  if (space != "Linear" && space != "linear" && space != "scene_linear")
+    for (float& value : values) value = linear_of_srgb(value);
+  image.values = std::move(values);
+  return image;
+}
+
 }  // namespace
 }  // namespace rayfarm
 
 extern "C" const rayfarm::ImageModule* rayfarm_images() {
   OIIO::attribute("debug", 0);  // its notes about the DateTime above would go to the user's terminal
-  static const rayfarm::ImageModule module{rayfarm::exr, rayfarm::png, rayfarm::read, rayfarm::channels};
+  static const rayfarm::ImageModule module{rayfarm::exr, rayfarm::png, rayfarm::read, rayfarm::channels,
+                                           rayfarm::texture};
   return &module;
 }

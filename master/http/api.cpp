@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::uint64_t longest_wait = 30;  // seconds; proxies and browsers lose patience at 60
 
-std::array<std::span<const Route>, 7> all_tables() {
-  return {job_routes(),    picture_routes(), map_routes(), diagnostics_routes(),
-          script_routes(), worker_routes(),  page_routes()};
+std::array<std::span<const Route>, 8> all_tables() {
+  return {job_routes(),    picture_routes(), map_routes(),    diagnostics_routes(),
+          script_routes(), asset_routes(),   worker_routes(), page_routes()};
 }
 
 /// What stands for the {} of the pattern, if the path has its form.

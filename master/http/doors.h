@@ -7,6 +7,7 @@
 #include "master/dialling.h"
 #include "master/event_log.h"
 #include "master/http/app_files.h"
+#include "master/http/asset_store.h"
 #include "master/http/farm_door.h"
 #include "master/http/frame_feeder.h"
 #include "master/http/scene_library.h"
@@ -32,6 +33,7 @@ struct Doors {
   const MasterDoor& master;
   const AppFiles& app;
   const SceneLibrary& scenes;
+  AssetStore& assets;
 };
 
 }  // namespace rayfarm

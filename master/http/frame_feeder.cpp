@@ -9,8 +9,10 @@ constexpr auto full_pause = std::chrono::milliseconds(200);  // until a full far
 
 enum class Taken { yes, not_now, never };
 
-Taken brought(const FarmDoor& farm, FrameId id, std::string hash, SharedBytes scene) try {
-  const bool goes_on = farm.ask([=](Farm& f, FarmTime now) { return f.add_frame(id, hash, scene, now); });
+Taken brought(const FarmDoor& farm, FrameId id, const SceneData& scene,
+              const std::vector<AssetData>& assets) try {
+  const bool goes_on =
+      farm.ask([=](Farm& f, FarmTime now) { return f.add_frame(id, scene.hash, scene.bytes, now, assets); });
   return goes_on ? Taken::yes : Taken::never;
 } catch (const FarmFull&) {
   return Taken::not_now;
@@ -51,12 +53,12 @@ void FrameFeeder::work() {
 /// False when there is nothing more to bring.
 bool FrameFeeder::feed_one(Feed& feed) try {
   feed.script.frame = feed.frames.at(feed.place);
-  const Bytes bytes = encode_scene(evaluate(feed.script, {}, [this] { return ending_.load(); }).scene);
-  const std::string hash = sha256_hex(bytes);
-  const auto scene = std::make_shared<const Bytes>(bytes);
+  const ScriptResult result = evaluate(feed.script, {}, [this] { return ending_.load(); });
+  const auto bytes = std::make_shared<const Bytes>(encode_scene(result.scene));
+  const SceneData scene{sha256_hex(*bytes), bytes};
   Taken taken = Taken::not_now;
   while (taken == Taken::not_now) {
-    taken = brought(farm_, {feed.job, feed.script.frame}, hash, scene);
+    taken = brought(farm_, {feed.job, feed.script.frame}, scene, result.assets);
     std::unique_lock lock(mutex_);
     if (taken == Taken::not_now && changed_.wait_for(lock, full_pause, [this] { return ending_.load(); }))
       return false;

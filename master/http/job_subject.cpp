@@ -18,7 +18,7 @@ JobSubject open_frame(const Farm& farm, JobId id, std::optional<std::uint32_t> n
   if (!scene) throw ApiError(410, "the scene of " + what + " is no longer kept; submit it again");
   RenderSettings settings = job.settings;
   settings.frame = frame.frame;
-  return {std::move(job), frame, {frame.scene_hash, scene, settings}};
+  return {std::move(job), frame, {frame.scene_hash, scene, settings, farm.assets(id, number)}};
 }
 
 }  // namespace

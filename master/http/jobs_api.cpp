@@ -54,13 +54,14 @@ JobSpec job_like_another(const json& body, const FarmDoor& farm) {
   spec.parameters = std::move(other.job.parameters);
   spec.scene_hash = std::move(other.subject.scene_hash);
   spec.scene_bytes = std::move(other.subject.scene);
+  spec.assets = std::move(other.subject.assets);
   return spec;
 }
 
 ApiResponse submit_job(const Call& call) {
   const json body = parse_json(call.request.body);
   SubmittedJob job = body.contains("scene_of") ? SubmittedJob{job_like_another(body, call.doors.farm), {}}
-                                               : submitted_job(body, call.doors.scenes);
+                                               : submitted_job(body, call.doors.scenes, call.doors.assets);
   const std::optional<FrameRange> frames = job.spec.frames;
   const json submitted = call.doors.farm.ask([spec = std::move(job.spec)](Farm& farm, FarmTime now) mutable {
     const JobId id = farm.submit(std::move(spec), now);
@@ -84,10 +85,11 @@ ApiResponse list_frames(const Call& call) {
 }
 
 ApiResponse add_frame(const Call& call) {
-  SubmittedFrame frame = frame_from_json(body_of(call));
+  SubmittedFrame frame = frame_from_json(body_of(call), call.doors.assets);
   ApiResponse response =
       shown(call.doors.farm.ask([id = job_id(call), frame = std::move(frame)](Farm& farm, FarmTime now) {
-        const bool is_taken = farm.add_frame({id, frame.number}, frame.scene.hash, frame.scene.bytes, now);
+        const bool is_taken =
+            farm.add_frame({id, frame.number}, frame.scene.hash, frame.scene.bytes, now, frame.assets);
         json job = job_now(farm, id, now);
         if (!is_taken)
           throw ApiError(409, text_of(id) + " has ended (" + job["state"].get<std::string>() + ")");

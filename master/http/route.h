@@ -46,6 +46,7 @@ struct Route {
 std::span<const Route> job_routes();
 std::span<const Route> picture_routes();
 std::span<const Route> script_routes();
+std::span<const Route> asset_routes();
 std::span<const Route> map_routes();
 std::span<const Route> diagnostics_routes();
 std::span<const Route> worker_routes();

@@ -31,7 +31,7 @@ OfferedScene offered(const fs::path& file) {
   const std::string text = content_of(file);
   scene.title = first_sentence(text);
   try {
-    ScriptResult result = evaluate({scene.script, text, {}, 0});
+    ScriptResult result = evaluate({scene.script, text, {}, 0, {}, file.parent_path()});
     scene.facts = {std::move(result.parameters), result.scene.image, result.scene.animation};
   } catch (const SceneError& error) {
     scene.error = error.what();

@@ -33,6 +33,8 @@ class SceneLibrary {
       : folder_(std::move(folder)) {}
 
   std::vector<OfferedScene> scenes() const;  // by name
+  /// Where the scripts lie, and the files that they name.
+  const std::filesystem::path& folder() const { return folder_; }
   /// The script's text. Throws ApiError when there is no such scene.
   std::string script(const std::string& name) const;
 

@@ -13,7 +13,8 @@ namespace {
 using nlohmann::json;
 
 struct NamedScript {
-  std::string name, text;  // "circus.lua"
+  std::string name, text;          // "circus.lua"
+  std::filesystem::path folder{};  // of the files that it may name; empty: none
 };
 
 std::string text_member(const json& body, const char* name) {
@@ -33,7 +34,7 @@ NamedScript uploaded(const json& body, const char* name_member) {
 NamedScript chosen_script(const json& body, const SceneLibrary& library) {
   if (body.contains("script")) return uploaded(body, "script_name");
   const std::string name = text_member(body, "scene_name");
-  return {name + ".lua", library.script(name)};
+  return {name + ".lua", library.script(name), library.folder()};
 }
 
 /// What is not given is as the scene wants it.
@@ -92,10 +93,10 @@ json to_json(const OfferedScene& scene) {
   return object;
 }
 
-SubmittedJob submitted_job(const json& body, const SceneLibrary& library) {
+SubmittedJob submitted_job(const json& body, const SceneLibrary& library, AssetStore& store) {
   const auto sources = body.contains("scene") + body.contains("scene_name") + body.contains("script");
   if (sources != 1) throw ApiError(400, "one of scene, scene_name and script must be there");
-  if (body.contains("scene")) return {job_spec(body), {}};
+  if (body.contains("scene")) return {job_spec(body, store), {}};
 
   JobSpec spec = job_wishes(body);
   const json settings = body.value("settings", json::object());
@@ -104,14 +105,17 @@ SubmittedJob submitted_job(const json& body, const SceneLibrary& library) {
   const std::string name = chosen.name;
   if (spec.name.empty()) spec.name = name.ends_with(".lua") ? name.substr(0, name.size() - 4) : name;
   const std::uint32_t first = spec.frames ? spec.frames->first : spec.settings.frame;
-  ScriptRequest script{std::move(chosen.name), std::move(chosen.text), spec.parameters, first, {}};
-  const Scene scene = evaluate(script).scene;
+  ScriptRequest script{std::move(chosen.name),  std::move(chosen.text), spec.parameters, first, {},
+                       std::move(chosen.folder)};
+  ScriptResult result = evaluate(script);
+  const Scene& scene = result.scene;
   if (spec.frames) expect_frames(script.name, scene, *spec.frames);
   script.animation = scene.animation;
   spec.settings = settings_for(settings, scene.image);
   Bytes bytes = encode_scene(scene);
   spec.scene_hash = sha256_hex(bytes);
   spec.scene_bytes = std::make_shared<const Bytes>(std::move(bytes));
+  for (AssetData& asset : result.assets) spec.assets.push_back(store.add(std::move(asset)));
   return {std::move(spec), std::move(script)};
 }
 

@@ -22,6 +22,6 @@ struct SubmittedJob {
 /// What POST /jobs brings: with `scene` as job_spec(), else with `scene_name`, or with `script` (and
 /// script_name), and `parameters`. The script is evaluated; a setting not given is the scene's, then the
 /// built-in one. Throws what job_spec() throws.
-SubmittedJob submitted_job(const nlohmann::json& body, const SceneLibrary& library);
+SubmittedJob submitted_job(const nlohmann::json& body, const SceneLibrary& library, AssetStore& store);
 
 }  // namespace rayfarm

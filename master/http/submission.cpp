@@ -94,9 +94,9 @@ int priority_from_json(const json& value) {
 }
 
 JobSpec job_wishes(const json& body) {
-  constexpr std::array known{"scene",      "scene_name", "scene_of", "script", "script_name",
-                             "parameters", "frames",     "name",     "output", "priority",
-                             "hold",       "key",        "settings"};
+  constexpr std::array known{"scene",       "assets",     "scene_name", "scene_of", "script",
+                             "script_name", "parameters", "frames",     "name",     "output",
+                             "priority",    "hold",       "key",        "settings"};
   for (const auto& [name, ignored] : body.items())
     if (std::find(known.begin(), known.end(), name) == known.end()) throw ApiError(400, name + " is unknown");
 
@@ -111,37 +111,69 @@ JobSpec job_wishes(const json& body) {
   return spec;
 }
 
-SceneData scene_in(const json& body) {
+std::vector<AssetData> assets_in(const json& body, AssetStore& store) {
+  const json value = body.value("assets", json::array());
+  if (!value.is_array()) throw ApiError(400, "assets must be a list of hashes");
+  std::vector<AssetData> assets;
+  for (const json& hash : value) {
+    if (!hash.is_string()) throw ApiError(400, "assets must be a list of hashes");
+    const std::optional<AssetData> asset = store.find(hash.get_ref<const std::string&>());
+    if (!asset)
+      throw ApiError(409, "the asset " + hash.get<std::string>().substr(0, 64) +
+                              " is not here: upload it first by POST /api/v1/assets");
+    assets.push_back(*asset);
+  }
+  return assets;
+}
+
+SceneData scene_in(const json& body, std::span<const AssetData> assets) {
   if (!body.contains("scene") || !body["scene"].is_string())
     throw ApiError(400, "scene must be there: the encoded scene in base64");
   Bytes bytes = from_base64(body["scene"].get_ref<const std::string&>());
-  decode_scene(bytes);  // throws unless it can be rendered; workers decode it again
+  std::vector<Asset> decoded;
+  for (const AssetData& asset : assets) decoded.push_back(decode_asset(asset));
+  decode_scene(bytes, decoded);  // throws unless it can be rendered; workers decode it again
   const std::string hash = sha256_hex(bytes);
   return {hash, std::make_shared<const Bytes>(std::move(bytes))};
 }
 
-JobSpec job_spec(const json& body) {
+JobSpec job_spec(const json& body, AssetStore& store) {
   JobSpec spec = job_wishes(body);
   spec.settings = settings_from_json(body.value("settings", json::object()));
-  SceneData scene = scene_in(body);
+  spec.assets = assets_in(body, store);
+  SceneData scene = scene_in(body, spec.assets);
   spec.scene_hash = std::move(scene.hash);
   spec.scene_bytes = std::move(scene.bytes);
   return spec;
 }
 
-SubmittedFrame frame_from_json(const json& body) {
+SubmittedFrame frame_from_json(const json& body, AssetStore& store) {
   for (const auto& [name, ignored] : body.items())
-    if (name != "frame" && name != "scene") throw ApiError(400, name + " is unknown");
+    if (name != "frame" && name != "scene" && name != "assets") throw ApiError(400, name + " is unknown");
   if (!body.contains("frame")) throw ApiError(400, "frame must be there: the frame's number");
-  return {frame_number(body, "frame", 0), scene_in(body)};
+  std::vector<AssetData> assets = assets_in(body, store);
+  SceneData scene = scene_in(body, assets);
+  return {frame_number(body, "frame", 0), std::move(scene), std::move(assets)};
 }
 
+namespace {
+
+json hashes_of(const std::vector<AssetData>& assets) {
+  json hashes = json::array();
+  for (const AssetData& asset : assets) hashes.push_back(asset.hash);
+  return hashes;
+}
+
+}  // namespace
+
 json to_json(const SubmittedFrame& frame) {
-  return {{"frame", frame.number}, {"scene", base64(*frame.scene.bytes)}};
+  return {
+      {"frame", frame.number}, {"scene", base64(*frame.scene.bytes)}, {"assets", hashes_of(frame.assets)}};
 }
 
 json to_json(const JobSpec& spec) {
   json object = {{"scene", base64(*spec.scene_bytes)},
+                 {"assets", hashes_of(spec.assets)},
                  {"name", spec.name},
                  {"output", spec.output},
                  {"priority", spec.priority},

@@ -6,6 +6,7 @@
 
 #include "master/farm.h"
 #include "master/http/api_error.h"
+#include "master/http/asset_store.h"
 
 namespace rayfarm {
 
@@ -17,20 +18,22 @@ constexpr std::uint64_t largest_scene =
 /// Throws ApiError.
 nlohmann::json parse_json(const std::string& text);
 
-/// {scene, frames, name, output, priority, hold, key, parameters, settings}: only the scene (base64 of encode_scene)
-/// must be there. The scene is decoded and checked. Throws ApiError, SettingsError, SceneError or CodecError.
-JobSpec job_spec(const nlohmann::json& body);
+/// {scene, assets, frames, name, output, priority, hold, key, parameters, settings}: only the scene (base64 of
+/// encode_scene) must be there; assets is a list of hashes, of those that were uploaded. The scene is decoded and
+/// checked. Throws ApiError, SettingsError, SceneError or CodecError.
+JobSpec job_spec(const nlohmann::json& body, AssetStore& store);
 /// All of a submission but its scene and settings. Throws ApiError, also for what no submission has.
 JobSpec job_wishes(const nlohmann::json& body);
 nlohmann::json to_json(const JobSpec& spec);
 
-/// Another frame of a job: {frame, scene}.
+/// Another frame of a job: {frame, scene, assets}.
 struct SubmittedFrame {
   std::uint32_t number = 0;
   SceneData scene;
+  std::vector<AssetData> assets;
 };
 /// Throws as job_spec().
-SubmittedFrame frame_from_json(const nlohmann::json& body);
+SubmittedFrame frame_from_json(const nlohmann::json& body, AssetStore& store);
 nlohmann::json to_json(const SubmittedFrame& frame);
 
 int priority_from_json(const nlohmann::json& value);

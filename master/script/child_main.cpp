@@ -2,10 +2,12 @@
 // Standard input: a ScriptTask. Standard output: its reply. Standard error: what the script prints.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
 
+#include "master/files/texture_image.h"
 #include "master/script/confine.h"
 #include "master/script/exchange.h"
 #include "master/script/run_script.h"
@@ -28,15 +30,24 @@ void write_all(int fd, std::string_view bytes) {
   }
 }
 
+bool is_mesh(const std::string& file) { return file.ends_with(".obj") || file.ends_with(".ply"); }
+
+/// Before the child is confined, and the script runs.
+bool needs_images(const ScriptFiles& files) {
+  return std::ranges::any_of(files, [](const auto& file) { return !is_mesh(file.first); });
+}
+
 std::string reply_to(const ScriptTask& task) {
   // Beside Lua's values: the scene, its bytes, the program itself.
   constexpr std::uint64_t beside_lua = 4ull << 30;
   constexpr std::uint32_t seconds_to_encode = 60;
+  if (needs_images(task.files)) prepare_to_read_images();
   confine(task.limits.memory_bytes + beside_lua);
   limit_cpu(task.limits.cpu_seconds + 1);  // a second after the limit from within, which can name the line
-  const ScriptResult result = run_script(task.request, task.limits);
+  const ScriptReply reply = run_script(task);
+  if (const auto* missing = std::get_if<std::vector<std::string>>(&reply)) return encode_wish(*missing);
   limit_cpu(task.limits.cpu_seconds + seconds_to_encode);
-  return encode_reply(result);
+  return encode_reply(std::get<ScriptResult>(reply));
 }
 
 int run() {

@@ -6,6 +6,7 @@
 
 #include "master/script/exchange.h"
 #include "master/script/script.h"
+#include "master/script/script_files.h"
 #include "master/script/spawn.h"
 
 namespace rayfarm {
@@ -64,14 +65,11 @@ std::string reason(const HelperEnd& end, const ScriptLimits& limits) {
   return "the evaluation failed with exit code " + std::to_string(end.code);
 }
 
-}  // namespace
-
-ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits,
-                      const std::function<bool()>& stop) {
-  if (request.text.size() > max_text)
-    throw SceneError(request.name + ": a script may have at most " + std::to_string(max_text >> 20) + " MB");
+/// One evaluation in a child of its own.
+ScriptReply reply_to(const ScriptTask& asked, const std::function<bool()>& stop) {
+  const auto& [request, files, limits] = asked;
   Printer printer(request.name);
-  const std::string task = encode_task({request, limits});
+  const std::string task = encode_task(asked);
   HelperEnd end;
   try {
     end = run_helper(
@@ -91,6 +89,23 @@ ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits,
   }
 }
 
+}  // namespace
+
+ScriptResult evaluate(const ScriptRequest& request, const ScriptLimits& limits,
+                      const std::function<bool()>& stop) {
+  if (request.text.size() > max_text)
+    throw SceneError(request.name + ": a script may have at most " + std::to_string(max_text >> 20) + " MB");
+  // First none, then those that it names; an animation may name others at the time of its frame.
+  constexpr int most_rounds = 3;
+  ScriptTask task{request, {}, limits};
+  for (int round = 0; round < most_rounds; ++round) {
+    ScriptReply reply = reply_to(task, stop);
+    if (auto* result = std::get_if<ScriptResult>(&reply)) return std::move(*result);
+    add_files(task.files, request, std::get<std::vector<std::string>>(reply));
+  }
+  throw SceneError(request.name + ": names other files each time it is evaluated");
+}
+
 ScriptRequest read_script(const std::filesystem::path& file, std::map<std::string, std::string> params) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
@@ -98,7 +113,9 @@ ScriptRequest read_script(const std::filesystem::path& file, std::map<std::strin
   std::string text(max_text + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  return {file.filename().string(), std::move(text), std::move(params), 0, {}};
+  ScriptRequest request{file.filename().string(), std::move(text), std::move(params)};
+  request.folder = file.has_parent_path() ? file.parent_path() : ".";
+  return request;
 }
 
 ScriptResult evaluate_file(const std::filesystem::path& file, std::map<std::string, std::string> params,

@@ -51,20 +51,36 @@ ScriptParameter parameter_from(const json& value) {
 }  // namespace
 
 std::string encode_task(const ScriptTask& task) {
+  json files = json::array();
+  std::string body = task.request.text;
+  for (const auto& [name, bytes] : task.files) {
+    files.push_back({name, bytes.size()});
+    body += bytes;
+  }
   json head = {{"name", task.request.name},
+               {"text_bytes", task.request.text.size()},
+               {"files", std::move(files)},
                {"params", task.request.params},
                {"frame", task.request.frame},
                {"cpu_seconds", task.limits.cpu_seconds},
                {"memory_bytes", task.limits.memory_bytes}};
   if (const auto& animation = task.request.animation)
     head["animation"] = {animation->start, animation->stop, animation->fps};
-  return message(head, task.request.text);
+  return message(head, body);
 }
 
 ScriptTask decode_task(std::string_view bytes) {
-  const auto [head, text] = split(bytes);
+  auto [head, body] = split(bytes);
+  const auto next = [&body = body](std::size_t size) {
+    const std::string_view part = body.substr(0, size);
+    body.remove_prefix(part.size());
+    return part;
+  };
   ScriptTask task;
-  task.request = {head.at("name"), std::string(text), head.at("params"), head.at("frame"), {}};
+  task.request.name = head.at("name"), task.request.text = next(head.at("text_bytes"));
+  task.request.params = head.at("params"), task.request.frame = head.at("frame");
+  for (const json& file : head.at("files"))
+    task.files.emplace(file.at(0).get<std::string>(), next(file.at(1)));
   if (head.contains("animation")) {
     const json& animation = head.at("animation");
     task.request.animation = Animation{animation.at(0), animation.at(1), animation.at(2)};
@@ -78,16 +94,45 @@ std::string encode_reply(const ScriptResult& result) {
   json parameters = json::array();
   for (const ScriptParameter& p : result.parameters) parameters.push_back(to_json(p));
   const Bytes scene = encode_scene(result.scene);
-  return message({{"parameters", parameters}}, {reinterpret_cast<const char*>(scene.data()), scene.size()});
+  std::string body(scene.begin(), scene.end());
+  json assets = json::array();
+  for (const AssetData& asset : result.assets) {
+    assets.push_back({asset.hash, asset.bytes->size()});
+    body.append(asset.bytes->begin(), asset.bytes->end());
+  }
+  return message({{"parameters", parameters}, {"scene_bytes", scene.size()}, {"assets", std::move(assets)}},
+                 body);
 }
 
 std::string encode_error(std::string_view text) { return message({{"error", text}}, {}); }
 
-ScriptResult decode_reply(std::string_view bytes) {
-  const auto [head, scene] = split(bytes);
+std::string encode_wish(const std::vector<std::string>& files) { return message({{"files", files}}, {}); }
+
+namespace {
+
+/// Takes the next part of a body.
+ByteView next_part(std::string_view& body, std::size_t size) {
+  if (size > body.size()) throw std::runtime_error("it ends too early");
+  const ByteView part{reinterpret_cast<const std::uint8_t*>(body.data()), size};
+  body.remove_prefix(size);
+  return part;
+}
+
+}  // namespace
+
+ScriptReply decode_reply(std::string_view bytes) {
+  auto [head, body] = split(bytes);
   if (head.contains("error")) throw SceneError(head.at("error").get<std::string>());
+  if (head.contains("files")) return head.at("files").get<std::vector<std::string>>();
   ScriptResult result;
-  result.scene = decode_scene({reinterpret_cast<const std::uint8_t*>(scene.data()), scene.size()});
+  const ByteView scene = next_part(body, head.at("scene_bytes"));
+  std::vector<Asset> assets;
+  for (const json& asset : head.at("assets")) {
+    const ByteView part = next_part(body, asset.at(1));
+    result.assets.push_back({asset.at(0), std::make_shared<const Bytes>(part.begin(), part.end())});
+    assets.push_back(decode_asset(result.assets.back()));
+  }
+  result.scene = decode_scene(scene, assets);
   for (const json& parameter : head.at("parameters")) result.parameters.push_back(parameter_from(parameter));
   return result;
 }

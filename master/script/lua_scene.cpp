@@ -201,7 +201,8 @@ int make_scene(lua_State* L) {
   fields.require("root");
   fields.push("root");
   append_tree(L, -1, scene);
-  check(scene);
+  scene.assets = run.assets.assets();
+  if (run.missing_files.empty()) check(scene);
   run.scene = std::move(scene);
   lua_newuserdatauv(L, 0, 0);
   luaL_setmetatable(L, LuaName<SceneMark>::value);

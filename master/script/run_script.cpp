@@ -3,6 +3,7 @@
 #include <lauxlib.h>
 
 #include "master/script/animation.h"
+#include "master/script/lua_assets.h"
 #include "master/script/lua_library.h"
 #include "master/script/lua_nodes.h"
 #include "master/script/lua_params.h"
@@ -15,6 +16,7 @@ namespace {
 
 struct Job {
   const ScriptRequest& request;
+  const ScriptFiles& files;
   double time;  // seconds
 };
 
@@ -25,6 +27,7 @@ int prepare(lua_State* L) {
   open_nodes(L);
   open_node_methods(L);
   open_scene(L);
+  open_assets(L);
   open_params(L);
   lua_pushnumber(L, job.time);
   lua_setglobal(L, "time");
@@ -38,8 +41,8 @@ int prepare(lua_State* L) {
   return 1;
 }
 
-ScriptResult run_at(const Job& job, const ScriptLimits& limits) {
-  ScriptRun run{job.request.params, {}, std::nullopt};
+ScriptReply run_at(const Job& job, const ScriptLimits& limits) {
+  ScriptRun run{job.request.params, job.files};
   LuaState state(limits.memory_bytes, std::chrono::seconds(limits.cpu_seconds));
   lua_State* const L = state.get();
   set_run(L, run);
@@ -50,29 +53,34 @@ ScriptResult run_at(const Job& job, const ScriptLimits& limits) {
   check_all_declared(run);
   if (!luaL_testudata(L, -1, LuaName<SceneMark>::value))
     throw SceneError("the script must end with return scene{ ... }, it returns " + description(L, -1));
-  return {std::move(*run.scene), std::move(run.parameters)};
+  if (!run.missing_files.empty()) return std::vector(run.missing_files.begin(), run.missing_files.end());
+  return ScriptResult{std::move(*run.scene), run.assets.take_data(), std::move(run.parameters)};
 }
 
-ScriptResult run_frame(const ScriptRequest& request, const Animation& animation, const ScriptLimits& limits) {
-  check_frame(animation, request.frame);
-  ScriptResult result = run_at({request, time_of(animation, request.frame)}, limits);
-  if (result.scene.animation != animation)
-    throw SceneError("the animation of frame " + std::to_string(request.frame) +
+ScriptReply run_frame(const ScriptTask& task, const Animation& animation) {
+  const std::uint32_t frame = task.request.frame;
+  check_frame(animation, frame);
+  ScriptReply reply = run_at({task.request, task.files, time_of(animation, frame)}, task.limits);
+  const auto* result = std::get_if<ScriptResult>(&reply);
+  if (result && result->scene.animation != animation)
+    throw SceneError("the animation of frame " + std::to_string(frame) +
                      " is another one; start, stop and fps must not change with time");
-  return result;
+  return reply;
 }
 
 }  // namespace
 
-ScriptResult run_script(const ScriptRequest& request, const ScriptLimits& limits) {
+ScriptReply run_script(const ScriptTask& task) {
+  const ScriptRequest& request = task.request;
   try {
-    if (request.animation) return run_frame(request, *request.animation, limits);
-    ScriptResult result = run_at({request, 0}, limits);
-    if (!result.scene.animation) return result;
+    if (request.animation) return run_frame(task, *request.animation);
+    ScriptReply reply = run_at({request, task.files, 0}, task.limits);
+    const auto* result = std::get_if<ScriptResult>(&reply);
+    if (!result || !result->scene.animation) return reply;
     // What the time is only the script can say; where it is not 0, it is evaluated again.
-    if (request.frame != 0 || result.scene.animation->start != 0)
-      return run_frame(request, *result.scene.animation, limits);
-    return result;
+    if (request.frame != 0 || result->scene.animation->start != 0)
+      return run_frame(task, *result->scene.animation);
+    return reply;
   } catch (const SceneError& error) {
     const std::string message = error.what();
     // Lua's messages begin with the file and line already.

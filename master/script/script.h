@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/net/messages.h"
 #include "common/scene/scene.h"
 
 namespace rayfarm {
@@ -36,10 +37,12 @@ struct ScriptRequest {
   std::uint32_t frame = 0;                    // time = animation.start + frame / fps, at most animation.stop
   // As another frame of the script has it; then the script is evaluated once, and need not be asked first.
   std::optional<Animation> animation{};
+  std::filesystem::path folder{};  // whose files it may name, and those below; empty: none
 };
 
 struct ScriptResult {
-  Scene scene;  // has passed check()
+  Scene scene;                    // has passed check()
+  std::vector<AssetData> assets;  // those of the scene, as they travel
   std::vector<ScriptParameter> parameters;
 };
 

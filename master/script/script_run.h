@@ -4,18 +4,23 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "master/script/script.h"
+#include "master/script/assets.h"
+#include "master/script/exchange.h"
 
 namespace rayfarm {
 
 struct ScriptRun {
   const std::map<std::string, std::string>& params;  // as the user gave them
-  std::vector<ScriptParameter> parameters;           // as the script declared them
-  std::optional<Scene> scene;                        // once scene{} was called
+  const ScriptFiles& files;                          // that the script was given
+  std::set<std::string> missing_files{};             // that it also asks for
+  Assets assets{};                                   // of its scene
+  std::vector<ScriptParameter> parameters{};         // as the script declared them
+  std::optional<Scene> scene{};                      // once scene{} was called
 };
 
 /// The run that the state evaluates; known to all its coroutines.

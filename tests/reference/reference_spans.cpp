@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "tests/reference/reference_torus.h"
@@ -92,6 +93,12 @@ Spans spans_of_chord(const Chord& chord) {
   return spans;
 }
 
+Spans spans_of_solid(const Mesh&, const Ray&) {
+  throw std::invalid_argument("the reference tracer has no meshes");
+}
+Spans spans_of_solid(const Bezier&, const Ray&) {
+  throw std::invalid_argument("the reference tracer has no Bezier surfaces");
+}
 Spans spans_of_solid(const Torus& torus, const Ray& ray) { return spans_of_torus(torus, ray); }
 
 // x^2 + y^2 - z^2 < 0 between the roots, or before the first and after the last.

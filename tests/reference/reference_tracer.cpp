@@ -134,6 +134,9 @@ Uv uv_of(const Torus& torus, const Vec& p, const Vec&) {
   return {turn(p.y, p.x), turn(s, p.z)};
 }
 
+Uv uv_of(const Mesh&, const Vec&, const Vec&) { return {0, 0}; }    // spans_of_solid() has refused it
+Uv uv_of(const Bezier&, const Vec&, const Vec&) { return {0, 0}; }  // as well
+
 bool is_odd(Real u, Real v) { return std::fmod(std::floor(u) + std::floor(v), Real(2)) != 0; }
 
 bool takes_color(const Checker& checker, Real u, Real v) { return is_odd(u * checker.fu, v * checker.fv); }
@@ -143,8 +146,12 @@ bool takes_color(const Stripes& stripes, Real u, Real v) {
 }
 
 Vec textured(const Texture& texture, const Uv& uv, const Vec& color) {
-  return std::visit([&](const auto& t) { return takes_color(t, uv.x, uv.y) ? Vec(t.color) : color; },
-                    texture);
+  if (std::holds_alternative<ImageTexture>(texture))
+    throw std::invalid_argument("the reference tracer has no images");
+  if (const auto* checker = std::get_if<Checker>(&texture))
+    return takes_color(*checker, uv.x, uv.y) ? Vec(checker->color) : color;
+  const Stripes& stripes = std::get<Stripes>(texture);
+  return takes_color(stripes, uv.x, uv.y) ? Vec(stripes.color) : color;
 }
 
 Surface surface_of(const Leaf& leaf, const Crossing& c, const Ray& ray) {

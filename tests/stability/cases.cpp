@@ -9,6 +9,8 @@ std::vector<Case> all_cases() {
            quadric_cases(),
            torus_cases(),
            transform_cases(),
+           bezier_cases(),
+           triangle_cases(),
            shared_face_cases(),
            twin_cases(),
            stacked_slab_cases(),

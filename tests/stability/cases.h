@@ -8,6 +8,8 @@ std::vector<Case> sphere_cases();             // S1 to S3
 std::vector<Case> quadric_cases();            // S5 to S7
 std::vector<Case> torus_cases();              // S8, S9
 std::vector<Case> transform_cases();          // S4, S15
+std::vector<Case> bezier_cases();             // S10
+std::vector<Case> triangle_cases();           // S11
 std::vector<Case> shared_face_cases();        // S12
 std::vector<Case> twin_cases();               // S13
 std::vector<Case> stacked_slab_cases();       // S14

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <string>
 
 #include "common/math/overload.h"
 
@@ -138,7 +140,10 @@ QuadSpans quad_spans(const Solid& solid, const QuadRay& r) {
                         cut_slab(chord, o.z, d.z, c.z_min, c.z_max);
                       },
                       [&](const Cone& c) { spans = cone_spans(c, r), chord.cut_all(); },
-                      [&](const Torus& t) { spans = torus_spans(t, r), chord.cut_all(); }},
+                      [&](const Torus& t) { spans = torus_spans(t, r), chord.cut_all(); },
+                      [](const auto& faceted) {
+                        throw std::invalid_argument(std::string(faceted.name) + " has cases of its own");
+                      }},
              solid);
   add(spans, chord);
   return spans;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -37,6 +39,9 @@ auto beyond(const Solid& solid, const Vec& p) {
                // Of a spindle torus the lemon inside is left out.
                [&](const Torus& t) -> Real {
                  return std::max(std::hypot(round - t.R, p.z) - t.r, t.r - std::hypot(round + t.R, p.z));
+               },
+               [](const auto& faceted) -> Real {
+                 throw std::invalid_argument(std::string(faceted.name) + " has no definition in numbers");
                }},
       solid);
 }

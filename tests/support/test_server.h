@@ -27,7 +27,8 @@ class TestServer {
                                       .diagnostics = diagnostics_,
                                       .master = master_,
                                       .app = app_,
-                                      .scenes = scenes_}) {}
+                                      .scenes = scenes_,
+                                      .assets = assets_}) {}
 
   std::string url() const { return server_.url(); }
   std::uint16_t port() const {
@@ -41,6 +42,7 @@ class TestServer {
   Diagnostics diagnostics_{1};
   const AppFiles app_;
   const SceneLibrary scenes_;
+  AssetStore assets_;
   HttpServer server_;
 };
 

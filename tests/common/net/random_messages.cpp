@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "tests/support/random_scene.h"
+#include "tests/support/surfaces.h"
 
 namespace rayfarm {
 namespace {
@@ -52,13 +53,15 @@ std::vector<ToWorker> random_to_worker(std::mt19937_64& random) {
   return {Welcome{random_name(random)},
           Refused{"the name " + random_name(random) + " is banned"},
           SceneData{hash, std::make_shared<const Bytes>(scene)},
-          FrameStart{JobId{random()}, hash, random_settings(random)},
+          FrameStart{JobId{random()}, hash, random_settings(random), {hash, std::string(64, 'b')}},
           Assignment{LeaseId{random()}, JobId{random()}, static_cast<std::uint32_t>(random()),
                      static_cast<std::uint32_t>(random()), static_cast<PassSet>(1 + random() % 15)},
           Revoke{random_leases(random)},
           FrameEnd{JobId{random()}, static_cast<std::uint32_t>(random())},
           Heartbeat{},
-          Goodbye{"the master stops"}};
+          Goodbye{"the master stops"},
+          asset_data(ball_mesh(4, 5)),
+          AssetEnd{{hash, std::string(64, 'c')}}};
 }
 
 std::vector<ToMaster> random_to_master(std::mt19937_64& random) {

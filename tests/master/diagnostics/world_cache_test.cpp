@@ -17,7 +17,7 @@ SceneData scene(std::uint64_t seed) { return scene_data(random_scene(seed)); }
 
 std::shared_ptr<const ReadyScene> get(WorldCache& cache, std::uint64_t seed) {
   const SceneData data = scene(seed);
-  return cache.get(data.hash, data.bytes);
+  return cache.get(data);
 }
 
 TEST(WorldCache, BuildsTheSceneWithTheNamesOfItsLeaves) {
@@ -72,7 +72,7 @@ TEST(WorldCache, ABrokenSceneIsToldToEachAskerAndTakesNoPlace) {
   WorldCache cache({.worlds = 1});
   const std::weak_ptr<const ReadyScene> whole = get(cache, 1);
   const auto broken = std::make_shared<const std::vector<std::uint8_t>>(9, std::uint8_t{1});
-  for (int i = 0; i < 2; ++i) EXPECT_THROW(cache.get("broken", broken), CodecError);
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(cache.get({"broken", broken}), CodecError);
   EXPECT_NE(get(cache, 1), nullptr);
 }
 

@@ -19,7 +19,8 @@ class Api : public testing::Test {
                                                         .diagnostics = diagnostics,
                                                         .master = master,
                                                         .app = app,
-                                                        .scenes = scenes});
+                                                        .scenes = scenes,
+                                                        .assets = assets});
   }
   ApiResponse post(const std::string& target, const nlohmann::json& body = nlohmann::json::object()) {
     return answer({"POST", target, "", "", "", "", body.dump()}, {.farm = door,
@@ -27,7 +28,8 @@ class Api : public testing::Test {
                                                                   .diagnostics = diagnostics,
                                                                   .master = master,
                                                                   .app = app,
-                                                                  .scenes = scenes});
+                                                                  .scenes = scenes,
+                                                                  .assets = assets});
   }
   nlohmann::json get_json(const std::string& target) { return nlohmann::json::parse(get(target).body); }
   std::string submit(const JobSpec& spec = small_job()) {
@@ -44,6 +46,7 @@ class Api : public testing::Test {
   MasterDoor master = lone_master();
   const AppFiles app;
   const SceneLibrary scenes;
+  AssetStore assets;
 };
 
 }  // namespace rayfarm

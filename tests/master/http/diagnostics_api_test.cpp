@@ -40,7 +40,8 @@ class DiagnosticsApi : public testing::Test {
                       .diagnostics = diagnostics,
                       .master = master,
                       .app = app,
-                      .scenes = scenes};
+                      .scenes = scenes,
+                      .assets = assets};
     return answer({"GET", "/api/v1/" + target, "", "", "", "", ""}, doors);
   }
   json get_json(const std::string& target) { return json::parse(get(target).body.text()); }
@@ -82,6 +83,7 @@ class DiagnosticsApi : public testing::Test {
   MasterDoor master = lone_master();
   const AppFiles app;
   const SceneLibrary scenes;
+  AssetStore assets;
 };
 
 /// As the command makes it.

@@ -15,7 +15,8 @@ TEST_F(Api, TheFramesOfAJobComeOneAfterTheOther) {
   EXPECT_EQ(get_json(job)["frames"]["sent"], 1);
   EXPECT_EQ(get_json(job)["settings"]["frame"], 2);
   const auto send = [&](std::uint32_t frame) {
-    return post(job + "/frames", to_json(SubmittedFrame{frame, {spec.scene_hash, spec.scene_bytes}})).status;
+    return post(job + "/frames", to_json(SubmittedFrame{frame, {spec.scene_hash, spec.scene_bytes}, {}}))
+        .status;
   };
   EXPECT_EQ(send(6), 422u) << "4 is next";
   EXPECT_EQ(send(4), 201u);
@@ -25,7 +26,8 @@ TEST_F(Api, TheFramesOfAJobComeOneAfterTheOther) {
   EXPECT_EQ(post(job + "/frames", {{"frame", 4}}).status, 400u);
   EXPECT_EQ(post(job + "/frames", {{"frame", 4}, {"scene", "!"}}).status, 422u);
   EXPECT_EQ(
-      post("/api/v1/jobs/77/frames", to_json(SubmittedFrame{2, {spec.scene_hash, spec.scene_bytes}})).status,
+      post("/api/v1/jobs/77/frames", to_json(SubmittedFrame{2, {spec.scene_hash, spec.scene_bytes}, {}}))
+          .status,
       404u);
   const json frames = get_json(job + "/frames")["frames"];
   ASSERT_EQ(frames.size(), 3u);
@@ -40,7 +42,7 @@ TEST_F(Api, EachFrameHasItsPictureMapsAndCounts) {
   JobSpec spec = small_job();
   spec.frames = FrameRange{0, 1, 1};
   const std::string id = submit(spec), job = "/api/v1/jobs/" + id;
-  post(job + "/frames", to_json(SubmittedFrame{1, {spec.scene_hash, spec.scene_bytes}}));
+  post(job + "/frames", to_json(SubmittedFrame{1, {spec.scene_hash, spec.scene_bytes}, {}}));
   wait_until_done(id);
   for (const std::string what : {"/film", "/picture.png", "/picture.exr", "/scene", "/trace?x=1&y=1"}) {
     const std::string joint = what.find('?') == std::string::npos ? "?" : "&";

@@ -23,7 +23,7 @@ return scene{ camera = perspective{ from = {0, 0, -9}, angle = 60 }, lights = { 
 class ScriptSubmission : public testing::Test {
  protected:
   ScriptSubmission() { put_content(folder / "balls.lua", balls); }
-  JobSpec submitted(const json& body) const { return submitted_job(body, library).spec; }
+  JobSpec submitted(const json& body) const { return submitted_job(body, library, store).spec; }
   unsigned status_of(const json& body) const {
     try {
       submitted(body);
@@ -35,6 +35,7 @@ class ScriptSubmission : public testing::Test {
 
   const ScratchFolder folder;
   const SceneLibrary library{folder.path()};
+  mutable AssetStore store;
 };
 
 TEST_F(ScriptSubmission, AnOfferedSceneIsEvaluatedWithItsParameters) {

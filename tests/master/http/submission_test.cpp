@@ -12,6 +12,11 @@ namespace {
 
 using nlohmann::json;
 
+JobSpec job_spec(const json& body) {
+  AssetStore none;
+  return rayfarm::job_spec(body, none);
+}
+
 TEST(Submission, ArrivesAsItWasSent) {
   JobSpec sent = small_job();
   sent.priority = 99, sent.hold = true, sent.key = "k";

@@ -182,11 +182,11 @@ TEST(Language, AFrameIsTheSameWhenTheAnimationIsKnownBefore) {
   const std::string script =
       "return scene{ root = sphere{}:translate(time, 0, 0), animation = { start = 1, stop = 9 } }";
   ScriptRequest request{"test.lua", script, {}, 50, {}};
-  const Scene asked = run_script(request, {}).scene;
+  const Scene asked = std::get<ScriptResult>(run_script({request, {}, {}})).scene;
   request.animation = asked.animation;
-  EXPECT_EQ(run_script(request, {}).scene, asked);
+  EXPECT_EQ(std::get<ScriptResult>(run_script({request, {}, {}})).scene, asked);
   request.frame = 201;
-  EXPECT_THROW(run_script(request, {}), SceneError);
+  EXPECT_THROW(run_script({request, {}, {}}), SceneError);
 }
 
 TEST(Language, AnAnimationThatChangesWithTimeIsRefused) {

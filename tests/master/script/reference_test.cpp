@@ -9,6 +9,7 @@
 #include <set>
 
 #include "common/scene/scene.h"
+#include "master/script/lua_assets.h"
 #include "master/script/lua_library.h"
 #include "master/script/lua_nodes.h"
 #include "master/script/lua_params.h"
@@ -60,6 +61,7 @@ std::set<std::string> found(const std::string& text, const std::string& pattern)
 std::vector<Signature> all_signatures() {
   std::vector<Signature> all = node_signatures();
   for (const Signature& signature : scene_signatures()) all.push_back(signature);
+  for (const Signature& signature : asset_signatures()) all.push_back(signature);
   all.push_back(param_signature());
   return all;
 }

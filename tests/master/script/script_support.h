@@ -10,7 +10,7 @@ namespace rayfarm {
 using Params = std::map<std::string, std::string>;
 
 inline ScriptResult run(const std::string& text, Params params = {}, std::uint32_t frame = 0) {
-  return run_script({"test.lua", text, std::move(params), frame}, {});
+  return std::get<ScriptResult>(run_script({{"test.lua", text, std::move(params), frame}, {}, {}}));
 }
 
 /// What the script is refused with, or "" when it is not.
