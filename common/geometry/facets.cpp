@@ -111,6 +111,17 @@ Nearest nearest_crossing(const Facets& facets, const LocalRay<double>& ray, cons
   return {best, is_alone && is_expected};
 }
 
+bool may_start_inside(const Facets& facets, const LocalRay<double>& ray, const Departure& from) {
+  if (!is_closed(facets)) return false;
+  if (from.part != no_part) return from.inward;
+  const Box& box = box_of(facets);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = ray.origin[axis];
+    if (at + ray.origin_error < box.low[axis] || at - ray.origin_error > box.high[axis]) return false;
+  }
+  return true;
+}
+
 FacetPoint point_at(const Facets& facets, const LocalRay<double>& ray, const FacetCrossing& crossing,
                     bool smooth) {
   return std::visit(Overload{[&](const MeshFacets& mesh) { return mesh.point_at(ray, crossing, smooth); },

@@ -47,6 +47,9 @@ struct Nearest {
 Nearest nearest_crossing(const Facets& facets, const LocalRay<double>& ray, const Departure& from,
                          double t_max);
 
+/// False only if the ray's start is outside for sure, or there is no inside.
+bool may_start_inside(const Facets& facets, const LocalRay<double>& ray, const Departure& from);
+
 FacetPoint point_at(const Facets& facets, const LocalRay<double>& ray, const FacetCrossing& crossing,
                     bool smooth);
 

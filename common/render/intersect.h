@@ -63,7 +63,12 @@ Boundary boundary_at(const FacetCrossing& c, std::uint32_t leaf, bool entering) 
 template <class Csg>
 ObjectStart start_of_facets(const Leaf& leaf, std::uint32_t number, const RayQuery& q, double t_max,
                             Csg& ws) {
-  const Nearest nearest = nearest_crossing(*leaf.facets, to_local(leaf, q), departure_from(number, q), t_max);
+  const LocalRay<double> local = to_local(leaf, q);
+  const Departure from = departure_from(number, q);
+  Nearest nearest = nearest_crossing(*leaf.facets, local, from, t_max);
+  // Inside there is a crossing ahead, however far; it tells the side.
+  if (!nearest.crossing && nearest.is_sure && may_start_inside(*leaf.facets, local, from))
+    nearest = nearest_crossing(*leaf.facets, local, from, infinity);
   if (nearest.is_sure) {
     if (!nearest.crossing) return {};
     const bool entering = nearest.crossing->entering;

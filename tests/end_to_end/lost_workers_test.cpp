@@ -27,7 +27,7 @@ TEST_P(LostWorkers, KilledAtRandomInstantsChangeNoByte) {
   EXPECT_GT(given_back, 20u) << "too few were killed in the middle of their work";
 }
 
-INSTANTIATE_TEST_SUITE_P(AllScenes, LostWorkers, testing::ValuesIn(all_scenes()), name_of_case);
+INSTANTIATE_TEST_SUITE_P(AllScenes, LostWorkers, testing::ValuesIn(five_scenes()), name_of_case);
 
 /// Two workers of one thread, and a picture that takes them a second or two.
 class TwoWorkers : public FarmPrograms {
