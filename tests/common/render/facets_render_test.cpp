@@ -78,8 +78,8 @@ TEST(FacetsRender, AMeshOfACubeIsTheCube) {
   }
 }
 
-TEST(FacetsRender, NoRayIsLostInSmoothGlassOfTrianglesAndPatches) {
-  const Rendered ball = rendered(scene_with(Mesh{0, true}, {asset_with(ball_mesh(12, 18))}, true));
+TEST(FacetsRender, NoRayIsLostInGlassOfTrianglesAndPatches) {
+  const Rendered ball = rendered(scene_with(Mesh{0, false}, {asset_with(ball_mesh(12, 18))}, true));
   EXPECT_EQ(ball.counters.lost, 0u);
   const Rendered patches = rendered(scene_with(Bezier{0}, {asset_with(ball_grid())}, true));
   EXPECT_EQ(patches.counters.lost, 0u);
