@@ -41,15 +41,18 @@ int winding_of(const std::vector<FacetCrossing>& crossings) {
   return winding;
 }
 
-/// Takes away crossings, the nearest first, that contradict what is known of the start.
-void mend(std::vector<FacetCrossing>& crossings, int& winding, int known) {
+/// Takes away crossings, the nearest first, that contradict what is known of the start. A ray that was sent inside, by a
+/// shading normal that leans over, but never gets there leaves where it came in.
+void mend(std::vector<FacetCrossing>& crossings, int& winding, const Departure& from) {
+  const int known = from.inward ? 1 : 0;
   while (winding != known) {
     const bool entering = winding < known;  // there is one too many of these
     const auto wrong = std::ranges::find(crossings, entering, &FacetCrossing::entering);
-    if (wrong == crossings.end()) return;
+    if (wrong == crossings.end()) break;
     crossings.erase(wrong);
     winding += entering ? 1 : -1;
   }
+  if (winding < known) crossings.insert(crossings.begin(), {0, 0, from.part, false}), ++winding;
 }
 
 /// Keeps the crossings where the winding begins or ends to be positive.
@@ -86,7 +89,7 @@ void find_path(const Facets& facets, const LocalRay<double>& ray, const Departur
   });
   if (std::holds_alternative<BezierFacets>(facets)) remove_twins(crossings);
   int winding = winding_of(crossings);
-  if (from.part != no_part) mend(crossings, winding, from.inward ? 1 : 0);
+  if (from.part != no_part) mend(crossings, winding, from);
   path.starts_inside = winding > 0;
   keep_boundaries(crossings, winding);
 }
@@ -104,8 +107,9 @@ Nearest nearest_crossing(const Facets& facets, const LocalRay<double>& ray, cons
     best = c;
     t_max = least(t_max, c.hi());
   });
-  if (!best || best->t > t_max) return {};
-  if (!is_closed(facets)) return {best, true};
+  const bool is_solid = is_closed(facets);
+  if (!best || best->t > t_max) return {std::nullopt, !(is_solid && from.part != no_part && from.inward)};
+  if (!is_solid) return {best, true};
   const bool is_alone = second > best->hi();
   const bool is_expected = from.part == no_part ? best->entering : best->entering != from.inward;
   return {best, is_alone && is_expected};

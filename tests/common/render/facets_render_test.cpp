@@ -86,6 +86,13 @@ TEST(FacetsRender, NoRayIsLostInGlassOfTrianglesAndPatches) {
   EXPECT_GT(patches.counters.refracted, 1000u);
 }
 
+TEST(FacetsRender, NoRayIsLostWhereShadingNormalsLeanOver) {
+  Scene scene = scene_with(Mesh{0, true}, {asset_with(ball_mesh(5, 6))}, true);
+  scene.nodes.erase(scene.nodes.begin() + 4);  // the other ball, which overlaps
+  scene.nodes[0].content = Operation{CsgOp::unite, 1};
+  EXPECT_EQ(rendered(scene).counters.lost, 0u);
+}
+
 TEST(FacetsRender, ASheetInAUnionShowsBothSidesAndLosesNoRay) {
   Scene scene;
   scene.assets = {asset_with(hill_grid())};
