@@ -1,6 +1,6 @@
-// What collecting maps or a point cloud adds to a render: CPU time on one thread, medians of five rounds. Each
-// tile is rendered plainly, with maps and with a cloud by turns, so that what else the PC does slows all of them.
-// Prints a table.
+// What collecting maps or a point cloud adds to a render: CPU time on one thread. Each tile is rendered plainly,
+// with maps and with a cloud by turns, each of them first once, and counts with its median of five rounds: so what
+// else the PC does now and then counts for none. Prints a table.
 #include <time.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace rayfarm {
 namespace {
 
-constexpr int rounds = 5;
+constexpr std::size_t rounds = 5, variants = 5;
 const std::function<bool()> never = [] { return false; };
 
 /// Of this process, in the kernel too: a cloud's file is written.
@@ -41,8 +41,8 @@ std::vector<const MapKind*> kinds_with(const std::function<bool(const MapKind&)>
 void measure(const std::string& scene, std::uint32_t spp) {
   const World world(evaluate_file(RAYFARM_SOURCE_DIR "/scenes/" + scene + ".lua", {}, 0).scene);
   const RenderSettings settings{.width = 320, .height = 180, .spp = spp};
-  constexpr std::size_t variants = 5;
-  std::array<std::array<double, rounds>, variants> seconds{};
+  const std::vector<std::uint32_t> order = centre_first({settings.width, settings.height});
+  std::vector<std::array<std::array<double, rounds>, variants>> seconds(order.size());
   for (std::size_t round = 0; round < rounds; ++round) {
     CloudFile cloud(std::filesystem::temp_directory_path() / "rayfarm-benchmark.ply", {});
     std::array<CollectingRender, variants> renders{
@@ -53,19 +53,23 @@ void measure(const std::string& scene, std::uint32_t spp) {
         CollectingRender(world, settings, kinds_with([](const MapKind&) { return true; })),
         CollectingRender(world, settings, {})};
     renders.back().also_collect(cloud);
-    for (const std::uint32_t tile : centre_first({settings.width, settings.height}))
-      for (std::size_t i = 0; i < variants; ++i) {
+    for (std::size_t tile = 0; tile < order.size(); ++tile)
+      for (std::size_t turn = 0; turn < variants; ++turn) {
+        const std::size_t i = (turn + round) % variants;
         const double before = cpu_seconds();
-        renders[i].render_tile(tile, all_passes, never);
-        seconds[i][round] += cpu_seconds() - before;
+        renders[i].render_tile(order[tile], all_passes, never);
+        seconds[tile][i][round] = cpu_seconds() - before;
       }
   }
+  std::array<double, variants> sums{};
+  for (const auto& of_tile : seconds)
+    for (std::size_t i = 0; i < variants; ++i) sums[i] += median(of_tile[i]);
 
   const double samples = static_cast<double>(settings.width) * settings.height * settings.spp;
-  const double plain = median(seconds[0]);
+  const double plain = sums[0];
   std::printf("%-20s %4u %8.1f", scene.c_str(), spp, 1e9 * plain / samples);
   for (std::size_t i = 1; i < variants; ++i) {
-    const double extra = median(seconds[i]) - plain;
+    const double extra = sums[i] - plain;
     std::printf("  %8.1f ns %5.1f %%", 1e9 * extra / samples, 100 * extra / plain);
   }
   std::printf("\n");
