@@ -44,9 +44,14 @@ CloudFile::CloudFile(const std::filesystem::path& file, const CloudOptions& opti
 
 void CloudFile::write(std::vector<PlyPoint>& points) {
   if (voxels_) thin(points, *voxels_);
+  constexpr std::size_t at_once = 4096;  // few enough for the cache
   std::vector<std::uint8_t> bytes;
-  append_ply(options_.form, points, bytes);
-  file_.append(bytes);
+  for (std::span<const PlyPoint> rest = points; !rest.empty();
+       rest = rest.subspan(std::min(at_once, rest.size()))) {
+    bytes.clear();
+    append_ply(options_.form, rest.first(std::min(at_once, rest.size())), bytes);
+    file_.append(bytes);
+  }
   count_ += points.size();
   points.clear();
 }
@@ -100,6 +105,12 @@ std::uint64_t CloudFile::commit() {
   file_.put_at_start(bytes_of(ply_header(options_.form, count_)));
   file_.commit();
   return count_;
+}
+
+void CloudPart::add(RayKind kind, const Hit& hit) {
+  if (kind != RayKind::primary && file_->options().visible_only) return;
+  points_.push_back(cloud_point(hit));
+  if (points_.size() >= CloudFile::part_size) file_->add(rank_, points_);
 }
 
 namespace {

@@ -68,11 +68,8 @@ class CloudFile {
 class CloudPart {
  public:
   CloudPart(CloudFile& file, std::uint32_t rank) : file_(&file), rank_(rank) {}
-  void add(RayKind kind, const Hit& hit) {
-    if (kind != RayKind::primary && file_->options().visible_only) return;
-    points_.push_back(cloud_point(hit));
-    if (points_.size() >= CloudFile::part_size) file_->add(rank_, points_);
-  }
+  /// Out of line, so that the tracer's code stays as it is for who watches nothing.
+  void add(RayKind kind, const Hit& hit);
   void end() { file_->end(rank_, std::move(points_)); }
 
  private:

@@ -4,6 +4,9 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <utility>
 
 namespace rayfarm {
 namespace {
@@ -20,6 +23,23 @@ void append_number(Number number, std::vector<std::uint8_t>& bytes) {
   static_assert(std::endian::native == std::endian::little);
   const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(Number)>>(number);
   bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+/// A point in memory is as in the file, but for what stands after its colour.
+void append_binary(std::span<const PlyPoint> points, std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t size = 27;
+  static_assert(offsetof(PlyPoint, normal) == 12 && offsetof(PlyPoint, color) == 24);
+  static_assert(std::endian::native == std::endian::little);
+  const std::size_t before = bytes.size();
+  bytes.resize(before + size * points.size());
+  std::uint8_t* into = bytes.data() + before;
+  for (const PlyPoint& p : points) std::memcpy(std::exchange(into, into + size), &p, size);
+}
+
+void append_compact(const PlyPoint& p, std::vector<std::uint8_t>& bytes) {
+  for (const float v : p.position) append_number(v, bytes);
+  for (const std::uint16_t v : octahedral(p.normal)) append_number(v, bytes);
+  bytes.insert(bytes.end(), p.color.begin(), p.color.end());
 }
 
 template <class Number>
@@ -63,17 +83,15 @@ std::string ply_header(PlyForm form, std::uint64_t points) {
 }
 
 void append_ply(PlyForm form, std::span<const PlyPoint> points, std::vector<std::uint8_t>& bytes) {
-  for (const PlyPoint& p : points) {
-    if (form == PlyForm::ascii) {
-      append_line(p, bytes);
-      continue;
-    }
-    for (const float v : p.position) append_number(v, bytes);
-    if (form == PlyForm::compact)
-      for (const std::uint16_t v : octahedral(p.normal)) append_number(v, bytes);
-    else
-      for (const float v : p.normal) append_number(v, bytes);
-    bytes.insert(bytes.end(), p.color.begin(), p.color.end());
+  switch (form) {
+    case PlyForm::binary:
+      return append_binary(points, bytes);
+    case PlyForm::ascii:
+      for (const PlyPoint& p : points) append_line(p, bytes);
+      return;
+    case PlyForm::compact:
+      for (const PlyPoint& p : points) append_compact(p, bytes);
+      return;
   }
 }
 
