@@ -53,7 +53,7 @@ class Tracer {
     }
     place_lights(light_point);
     observer.begin(1.0);
-    return radiance(*ray, RayKind::primary, 0, 1.0);
+    return radiance<RayKind::primary>(*ray, 0, 1.0);
   }
 
   /// The same, while somebody else watches too.
@@ -106,7 +106,8 @@ class Tracer {
     return hit_at(state_.world, query, *boundary);
   }
 
-  Vec3d radiance(const Ray& ray, RayKind kind, std::uint32_t depth, double importance) {
+  template <RayKind kind>
+  Vec3d radiance(const Ray& ray, std::uint32_t depth, double importance) {
     if (++state_.rays_since_question == rays_between_questions) {
       state_.rays_since_question = 0;
       state_.stopped = state_.stopped || (state_.stop && state_.stop());
@@ -153,7 +154,7 @@ class Tracer {
       if (goes_on(importance * weight)) {
         observer.begin(weight);
         const Ray next = ray_from(hit, mirrored(to_viewer, hit.normal), hit.entering);
-        color += radiance(next, RayKind::reflected, depth + 1, importance * weight) * weight;
+        color += radiance<RayKind::reflected>(next, depth + 1, importance * weight) * weight;
       } else {
         observer.not_traced(RayKind::reflected, weight, NotTraced::importance);
       }
@@ -165,7 +166,7 @@ class Tracer {
       } else if (const std::optional<Vec3d> direction = refracted(to_viewer, hit.normal, hit.index)) {
         observer.begin(weight);
         const Ray next = ray_from(hit, *direction, !hit.entering);
-        color += radiance(next, RayKind::refracted, depth + 1, importance * weight) * weight;
+        color += radiance<RayKind::refracted>(next, depth + 1, importance * weight) * weight;
       } else {
         observer.not_traced(RayKind::refracted, weight, NotTraced::total_reflection);
       }

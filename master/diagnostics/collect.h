@@ -39,19 +39,16 @@ class PixelObserver : public CountingObserver {
   const PixelSurfaces& surfaces() const { return surfaces_; }
 
  private:
+  /// Out of line, so that the tracer's code stays as it is for who watches nothing.
+  void met(const std::optional<Hit>& hit);
   /// Samples of an adaptive sampler have their weight only when all of the pixel's are traced.
-  void met(const std::optional<Hit>& hit) {
-    if (is_adaptive_)
-      ends_.push_back(hit ? std::optional(surface_sample(*hit)) : std::nullopt);
-    else if (hit)
-      surfaces_.add(surface_sample(*hit), 1);
-  }
+  [[gnu::noinline]] void keep(const std::optional<Hit>& hit);
 
   PixelSurfaces surfaces_;
   std::uint64_t all_weight_;
   bool is_adaptive_;
   RayCounters before_;
-  std::vector<std::optional<SurfaceSample>> ends_;  // of an adaptive sampler, by number
+  std::vector<std::optional<Hit>> ends_;  // of an adaptive sampler, by number
 };
 
 }  // namespace rayfarm

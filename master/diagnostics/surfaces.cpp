@@ -11,24 +11,6 @@ FlatFaces flat_faces_of(const Solid& solid) {
   return std::visit([](const auto& s) { return s.flat_faces; }, solid);
 }
 
-/// Whether two points of a face lie on one sheet of it, as seen from about the same place.
-///
-/// Of a sheet that bends one way, the chord between two points rises from the tangent plane at one of them and
-/// comes down to that at the other. Of two sheets, one behind the other and both facing the viewer, it comes
-/// down to both. Points side by side may have a relief between them.
-bool on_one_sheet(const SurfaceSample& a, const SurfaceSample& b) {
-  constexpr double flat = 0.05, steepest = 0.8;  // sines of the angles between chord and tangent planes
-  const Vec3d chord = b.point - a.point;
-  const double length_2 = dot(chord, chord);
-  const double rise_a = dot(a.normal, chord), rise_b = dot(b.normal, chord);
-  const double most_2 = greatest(rise_a * rise_a, rise_b * rise_b);
-  if (most_2 <= flat * flat * length_2) return true;
-  if (most_2 > steepest * steepest * length_2) return false;
-  const double behind = b.distance - a.distance;
-  const bool side_by_side = behind * behind <= 0.75 * length_2;  // at 60 degrees to the view at most
-  return side_by_side || rise_a * rise_b <= 0;
-}
-
 constexpr std::array<std::string_view, 4> reduction_names{"majority", "mean", "closest", "median"};
 
 }  // namespace
@@ -41,21 +23,13 @@ std::optional<Reduction> reduction_named(std::string_view name) {
 
 std::string_view name_of(Reduction reduction) { return reduction_names[static_cast<std::size_t>(reduction)]; }
 
-void PixelSurfaces::Sums::add(const SurfaceSample& s, std::uint32_t times) {
-  const double factor = times;
-  weight += times;
-  distance += factor * s.distance;
-  point += factor * s.point;
-  normal += factor * s.normal;
-}
-
 PixelSurfaces::Sums& PixelSurfaces::Sums::operator+=(const Sums& o) {
   weight += o.weight, distance += o.distance;
   point += o.point, normal += o.normal;
   return *this;
 }
 
-Surface PixelSurfaces::Sums::mean(const SurfaceSample& any) const {
+Surface PixelSurfaces::Sums::mean(const Hit& any) const {
   const auto all = static_cast<double>(weight);
   // Opposite normals cancel out; then one of them stands for all.
   const bool cancelled = normal == Vec3d{};
@@ -65,16 +39,18 @@ Surface PixelSurfaces::Sums::mean(const SurfaceSample& any) const {
 void PixelSurfaces::clear() {
   count_ = last_ = 0;
   rest_ = {};
-  closest_.distance = infinity;
+  closest_.t = infinity;
   samples_.clear();
 }
 
-void PixelSurfaces::add(const SurfaceSample& sample, std::uint32_t weight) {
-  if (sample.distance < closest_.distance) closest_ = sample;
+void PixelSurfaces::keep(const Hit& sample, std::uint32_t weight) {
+  if (sample.t < closest_.t) closest_ = sample;
   if (reduction_ == Reduction::median) samples_.push_back({sample, weight});
+}
+
+void PixelSurfaces::find_and_add(const Hit& sample, std::uint32_t weight) {
   const auto add_to = [&](std::size_t i) {
     ranks_[i].sums.add(sample, weight);
-    ranks_[i].lead += weight;
     last_ = i;
   };
   if (last_ < count_ && shows(ranks_[last_], sample)) return add_to(last_);
@@ -83,42 +59,40 @@ void PixelSurfaces::add(const SurfaceSample& sample, std::uint32_t weight) {
   add_new(sample, weight);
 }
 
-void PixelSurfaces::add_new(const SurfaceSample& sample, std::uint32_t weight) {
-  std::uint64_t lead = weight;
+bool PixelSurfaces::shows(const Rank& rank, const Hit& sample) const {
+  if (plainly_shows(rank, sample)) return true;
+  return rank.flat_faces == FlatFaces::caps && is_of_leaf(rank, sample) && !rank.is_cap && !is_cap(sample) &&
+         on_one_sheet(rank.first, sample);
+}
+
+void PixelSurfaces::add_new(const Hit& sample, std::uint32_t weight) {
+  std::uint64_t set_off = 0;
   if (count_ < most) {
     last_ = count_++;
   } else {
     const auto weakest = std::min_element(ranks_.begin(), ranks_.end(), [](const Rank& a, const Rank& b) {
-      return a.lead != b.lead ? a.lead < b.lead : a.sums.weight < b.sums.weight;
+      return a.lead() != b.lead() ? a.lead() < b.lead() : a.sums.weight < b.sums.weight;
     });
-    const std::uint64_t set_off = std::min<std::uint64_t>(weight, weakest->lead);
-    for (Rank& rank : ranks_) rank.lead -= set_off;
-    lead -= set_off;
-    if (lead == 0) return rest_.add(sample, weight);
+    set_off = std::min<std::uint64_t>(weight, weakest->lead());
+    for (Rank& rank : ranks_) rank.set_off += set_off;
+    if (set_off == weight) return rest_.add(sample, weight);
     rest_ += weakest->sums;
     last_ = static_cast<std::size_t>(weakest - ranks_.begin());
   }
-  ranks_[last_] = {sample, is_cap(sample), {}, lead};
-  ranks_[last_].sums.add(sample, weight);
+  Rank& rank = ranks_[last_];
+  rank.first = sample;
+  rank.flat_faces = flat_faces_of(world_->leaves[sample.leaf].solid);
+  rank.is_cap = rank.flat_faces == FlatFaces::caps && is_cap(sample);
+  rank.sums = {};
+  rank.sums.add(sample, weight);
+  rank.set_off = set_off;
 }
 
-bool PixelSurfaces::is_cap(const SurfaceSample& sample) const {
-  const Leaf& leaf = world_->leaves[sample.leaf];
-  if (flat_faces_of(leaf.solid) != FlatFaces::caps) return false;
-  const Vec3d& axis = leaf.row[2];  // normals of the caps lie along it, those of the side never
+bool PixelSurfaces::is_cap(const Hit& sample) const {
+  const Vec3d& axis =
+      world_->leaves[sample.leaf].row[2];  // normals of the caps lie along it, those of the side never
   const double along = dot(sample.normal, axis);
   return along * along > (1 - 1e-12) * dot(axis, axis);
-}
-
-/// Whether the sample lies on the rank's face, and on the same sheet of it.
-bool PixelSurfaces::shows(const Rank& rank, const SurfaceSample& sample) const {
-  if (sample.leaf != rank.first.leaf || sample.into_leaf != rank.first.into_leaf) return false;
-  if (sample.normal != rank.first.normal) {
-    const Leaf& leaf = world_->leaves[sample.leaf];
-    if (flat_faces_of(leaf.solid) == FlatFaces::all) return false;
-    if (rank.is_cap || is_cap(sample)) return false;
-  }
-  return on_one_sheet(rank.first, sample);
 }
 
 std::vector<Surface> PixelSurfaces::ranked() const {
@@ -150,7 +124,7 @@ std::optional<Surface> PixelSurfaces::reduced(std::uint64_t all) const {
     case Reduction::mean:
       return all_sums().mean(ranks_[0].first);
     case Reduction::closest:
-      return Surface{closest_.leaf, 1, closest_.distance, closest_.point, closest_.normal};
+      return Surface{closest_.leaf, 1, closest_.t, closest_.point, closest_.normal};
     case Reduction::median:
       return median(all);
   }
@@ -173,11 +147,11 @@ std::optional<Surface> PixelSurfaces::majority(std::uint64_t missed) const {
 std::optional<Surface> PixelSurfaces::median(std::uint64_t all) const {
   std::vector<Weighed> sorted = samples_;
   std::sort(sorted.begin(), sorted.end(),
-            [](const Weighed& a, const Weighed& b) { return a.sample.distance < b.sample.distance; });
+            [](const Weighed& a, const Weighed& b) { return a.sample.t < b.sample.t; });
   std::uint64_t before = 0;
   for (const auto& [s, weight] : sorted) {
     before += weight;
-    if (2 * before >= all) return Surface{s.leaf, weight, s.distance, s.point, s.normal};
+    if (2 * before >= all) return Surface{s.leaf, weight, s.t, s.point, s.normal};
   }
   return std::nullopt;
 }

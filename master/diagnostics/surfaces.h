@@ -10,21 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "common/math/number.h"
 #include "common/render/hit.h"
 
 namespace rayfarm {
-
-/// Where a primary ray first met a surface.
-struct SurfaceSample {
-  std::uint32_t leaf = 0;
-  bool into_leaf = true;  // on the leaf's near side, not from within it
-  double distance = 0;
-  Vec3d point{}, normal{};
-};
-
-inline SurfaceSample surface_sample(const Hit& hit) {
-  return {hit.leaf, hit.leaf_entering, hit.t, hit.point, hit.normal};
-}
 
 /// One surface within a pixel: its samples' means.
 struct Surface {
@@ -42,6 +31,24 @@ enum class Reduction : std::uint8_t {
   median,    // the sample in the middle by distance, those that hit nothing behind all others
 };
 
+/// Whether two points of a face lie on one sheet of it, as seen from about the same place.
+///
+/// Of a sheet that bends one way, the chord between two points rises from the tangent plane at one of them and
+/// comes down to that at the other. Of two sheets, one behind the other and both facing the viewer, it comes
+/// down to both. Points side by side may have a relief between them.
+inline bool on_one_sheet(const Hit& a, const Hit& b) {
+  constexpr double flat = 0.05, steepest = 0.8;  // sines of the angles between chord and tangent planes
+  const Vec3d chord = b.point - a.point;
+  const double length_2 = dot(chord, chord);
+  const double rise_a = dot(a.normal, chord), rise_b = dot(b.normal, chord);
+  const double most_2 = greatest(rise_a * rise_a, rise_b * rise_b);
+  if (most_2 <= flat * flat * length_2) return true;
+  if (most_2 > steepest * steepest * length_2) return false;
+  const double behind = b.t - a.t;
+  const bool side_by_side = behind * behind <= 0.75 * length_2;  // at 60 degrees to the view at most
+  return side_by_side || rise_a * rise_b <= 0;
+}
+
 std::optional<Reduction> reduction_named(std::string_view name);
 std::string_view name_of(Reduction reduction);
 
@@ -49,10 +56,12 @@ std::string_view name_of(Reduction reduction);
 /// samples).
 ///
 /// A surface is one face of a leaf, and one sheet of it: a face that comes into view twice (a hole's near and far
-/// side, the tube of a torus before its far side) is two. Four are told apart at a time; a fifth takes the place of the one that has been
-/// outweighed by others, so whatever more than a fifth of the samples that hit show is among the four, and what
-/// has lost its place joins the rest, which is no surface and is never shown. Source: J. Misra and D. Gries,
-/// Finding Repeated Elements, Science of Computer Programming 2, 1982.
+/// side, the tube of a torus before its far side) is two. Four are told apart at a time; a fifth takes the place of
+/// the one that has been outweighed by others, so whatever more than a fifth of the samples that hit show is among
+/// the four, and what has lost its place joins the rest, which is no surface and is never shown. Source: J. Misra
+/// and D. Gries, Finding Repeated Elements, Science of Computer Programming 2, 1982.
+///
+/// Nearly all samples show what the one before them showed: that much is inline and copies nothing.
 class PixelSurfaces {
  public:
   static constexpr std::size_t most = 4;
@@ -61,7 +70,13 @@ class PixelSurfaces {
 
   void clear();
   /// The weight is a whole number; all of a pixel's samples have 1 unless the sampler is adaptive.
-  void add(const SurfaceSample& sample, std::uint32_t weight);
+  void add(const Hit& sample, std::uint32_t weight) {
+    if (reduction_ >= Reduction::closest) keep(sample, weight);
+    if (last_ < count_ && plainly_shows(ranks_[last_], sample))
+      ranks_[last_].sums.add(sample, weight);
+    else
+      find_and_add(sample, weight);
+  }
 
   /// The greatest weight first; of equal ones the closer surface.
   std::vector<Surface> ranked() const;
@@ -75,20 +90,40 @@ class PixelSurfaces {
     double distance = 0;
     Vec3d point{}, normal{};
 
-    void add(const SurfaceSample& sample, std::uint32_t times);
+    void add(const Hit& sample, std::uint32_t times) {
+      const double factor = times;
+      weight += times;
+      distance += factor * sample.t;
+      point += factor * sample.point;
+      normal += factor * sample.normal;
+    }
     Sums& operator+=(const Sums& o);
-    Surface mean(const SurfaceSample& any) const;
+    Surface mean(const Hit& any) const;
   };
   struct Rank {
-    SurfaceSample first;
-    bool is_cap = false;  // of a cylinder
+    Hit first;
+    FlatFaces flat_faces = FlatFaces::none;  // of the leaf
+    bool is_cap = false;                     // of a cylinder or cone
     Sums sums;
-    std::uint64_t lead = 0;  // what is left of its weight when others' is set off against it
+    std::uint64_t set_off = 0;  // of its weight, against that of others
+
+    std::uint64_t lead() const { return sums.weight - set_off; }
   };
 
-  bool shows(const Rank& rank, const SurfaceSample& sample) const;
-  bool is_cap(const SurfaceSample& sample) const;
-  void add_new(const SurfaceSample& sample, std::uint32_t weight);
+  static bool is_of_leaf(const Rank& rank, const Hit& sample) {
+    return sample.leaf == rank.first.leaf && sample.leaf_entering == rank.first.leaf_entering;
+  }
+  /// Whether the sample lies on the rank's face, and on the same sheet of it, as far as that is seen at a glance.
+  static bool plainly_shows(const Rank& rank, const Hit& sample) {
+    if (!is_of_leaf(rank, sample)) return false;
+    return rank.flat_faces == FlatFaces::none ? on_one_sheet(rank.first, sample)
+                                              : sample.normal == rank.first.normal;
+  }
+  bool shows(const Rank& rank, const Hit& sample) const;
+  bool is_cap(const Hit& sample) const;  // of a leaf that has caps
+  void keep(const Hit& sample, std::uint32_t weight);
+  void find_and_add(const Hit& sample, std::uint32_t weight);
+  void add_new(const Hit& sample, std::uint32_t weight);
   std::uint64_t hit_weight() const;
   Sums all_sums() const;
   std::optional<Surface> majority(std::uint64_t missed) const;
@@ -99,9 +134,9 @@ class PixelSurfaces {
   std::array<Rank, most> ranks_;
   std::size_t count_ = 0, last_ = 0;  // last_: of the sample before
   Sums rest_;
-  SurfaceSample closest_{.distance = infinity};
+  Hit closest_{.t = infinity};
   struct Weighed {
-    SurfaceSample sample;
+    Hit sample;
     std::uint32_t weight;
   };
   std::vector<Weighed> samples_;  // for the median alone

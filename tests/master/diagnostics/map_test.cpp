@@ -88,7 +88,7 @@ TEST(Map, ANormalAtAnEdgeIsThatOfTheSurfaceThatMostSamplesShow) {
         PixelSurfaces found(world, Reduction::majority);
         for (std::uint32_t i = 0; i < s.spp; ++i) {
           const Sample2D place = sampler.sample(i, 0);
-          if (const auto hit = tracer.first_hit(x + place.u, y + place.v)) found.add(surface_sample(*hit), 1);
+          if (const auto hit = tracer.first_hit(x + place.u, y + place.v)) found.add(*hit, 1);
         }
         return found.ranked();
       };

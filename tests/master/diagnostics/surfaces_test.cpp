@@ -20,10 +20,14 @@ Scene scene_of_spheres(std::uint32_t count) {
   return scene;
 }
 
+Hit hit_of(std::uint32_t leaf, double t, const Vec3d& point, const Vec3d& normal) {
+  return {.t = t, .point = point, .normal = normal, .leaf = leaf, .leaf_entering = true};
+}
+
 /// On a plane of its own for each leaf, facing the camera.
-SurfaceSample sample_of(std::uint32_t leaf, double x = 0) {
+Hit sample_of(std::uint32_t leaf, double x = 0) {
   const double z = 1 + leaf;
-  return {leaf, true, z, {x, 0, z}, {0, 0, -1}};
+  return hit_of(leaf, z, {x, 0, z}, {0, 0, -1});
 }
 
 std::uint64_t sum_of(const PixelSurfaces& surfaces) {
@@ -43,8 +47,7 @@ TEST(Surfaces, EachSampleBelongsToOneAndTheRanksDescend) {
       surfaces.clear();
       std::uint64_t hits = 0;
       for (std::uint32_t x = 0; x < s.width; ++x)
-        if (const auto hit = tracer.first_hit(x + 0.5, y + 0.5))
-          surfaces.add(surface_sample(*hit), 1), ++hits;
+        if (const auto hit = tracer.first_hit(x + 0.5, y + 0.5)) surfaces.add(*hit, 1), ++hits;
       std::uint64_t last = s.width;
       for (const Surface& surface : surfaces.ranked()) {
         EXPECT_LE(surface.weight, last);
@@ -82,7 +85,7 @@ TEST(Surfaces, WeightsCountAsSoManySamples) {
        {Reduction::majority, Reduction::mean, Reduction::median, Reduction::closest}) {
     PixelSurfaces weighed(world, reduction), repeated(world, reduction);
     for (std::uint32_t i = 0; i < 12; ++i) {
-      const SurfaceSample sample = sample_of(i % 3, 0.01 * i);
+      const Hit sample = sample_of(i % 3, 0.01 * i);
       weighed.add(sample, 1 + i);
       for (std::uint32_t n = 0; n < 1 + i; ++n) repeated.add(sample, 1);
     }
@@ -95,12 +98,12 @@ TEST(Surfaces, WeightsCountAsSoManySamples) {
 
 TEST(Surfaces, AFaceThatComesIntoViewTwiceIsTwoSurfaces) {
   // A torus seen from the side: its tube edge-on, and its far side from the front.
-  const SurfaceSample near_1{0, true, 4.00, {0, 0.25, 4}, {0, 1, 0}},
-      near_2{0, true, 4.01, {0.01, 0.25, 4.01}, {0, 1, 0}};
-  const SurfaceSample far{0, true, 6, {0, 0.26, 6}, {0, 0, -1}};
+  const Hit near_1 = hit_of(0, 4.00, {0, 0.25, 4}, {0, 1, 0}),
+            near_2 = hit_of(0, 4.01, {0.01, 0.25, 4.01}, {0, 1, 0});
+  const Hit far = hit_of(0, 6, {0, 0.26, 6}, {0, 0, -1});
   const World world(scene_of_spheres(1));
   PixelSurfaces surfaces(world, Reduction::majority);
-  for (const SurfaceSample& sample : {far, near_2, near_1}) surfaces.add(sample, 1);
+  for (const Hit& sample : {far, near_2, near_1}) surfaces.add(sample, 1);
   const std::vector<Surface> ranked = surfaces.ranked();
   ASSERT_EQ(ranked.size(), 2u);
   EXPECT_EQ(ranked[0].weight, 2u);
@@ -129,7 +132,7 @@ TEST(Surfaces, TheMeanOfABumpySurfaceIsItsMean) {
     const double x = (i + 0.5) / count, phase = 2 * pi * x / period;
     const double z = 10 + height * std::sin(phase), slope = height * 2 * pi / period * std::cos(phase);
     const Vec3d normal = normalized(Vec3d{slope, 0, -1});
-    surfaces.add({0, true, z, {x, 0, z}, normal}, 1);
+    surfaces.add(hit_of(0, z, {x, 0, z}, normal), 1);
     sum += z, squares += (z - 10) * (z - 10);
   }
   for (const Surface& surface : surfaces.ranked()) seen += static_cast<double>(surface.weight);
