@@ -75,7 +75,7 @@ void serve(const Arguments& arguments) {
   static auto& io = *new asio::io_context;
   LiveFarm farm;
   Sessions sessions(io, farm, parse_address(arguments.listen, default_farm_port),
-                    arguments.insecure ? Exposure::insecure : Exposure::loopback_only);
+                    Security{arguments.insecure ? Exposure::insecure : Exposure::loopback_only});
   FarmDoor door([&](std::function<void(Farm&, FarmTime)> question) {
     asio::post(io, [&farm, question = std::move(question)] { farm.apply(question); });
   });

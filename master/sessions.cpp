@@ -53,13 +53,13 @@ struct Sessions::Dialled {
   std::string fault;  // of the last try
 };
 
-Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Exposure exposure,
+Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Security security,
                    DoorTimes times)
     : io_(io),
       farm_(farm),
-      exposure_(exposure),
+      security_(std::move(security)),
       times_(times),
-      acceptor_(listen_at(io, listen, exposure)),
+      acceptor_(listen_at(io, listen, security_)),
       listening_at_{acceptor_.local_endpoint().address().to_string(), acceptor_.local_endpoint().port()},
       ended_(io, std::chrono::steady_clock::time_point::max()) {}
 
@@ -95,13 +95,42 @@ asio::awaitable<void> Sessions::accept_all() {
 asio::awaitable<void> Sessions::serve_stranger(tcp::socket socket) {
   asio::error_code unknown;
   const tcp::endpoint peer = socket.remote_endpoint(unknown);
-  auto serving = serve(std::move(socket), nullptr);
-  const std::string fault = co_await std::move(serving);
+  auto attempt = try_stranger(std::move(socket));
+  const std::string fault = co_await std::move(attempt);
   if (fault.empty()) co_return;
   std::string line = "no worker at " + peer.address().to_string() + ": " + fault;
   if (line == last_stranger_) co_return;
   last_stranger_ = line;
   farm_.note({true, std::move(line), ""});
+}
+
+/// Why it was not admitted; empty when it was.
+asio::awaitable<std::string> Sessions::try_stranger(tcp::socket socket) {
+  std::string fault;
+  try {
+    std::optional<Channel> channel;
+    auto greeting = until_first_ends(receive(channel, std::move(socket)), wait_until_stopping());
+    co_await std::move(greeting);
+    if (!channel) co_return "";
+    if (channel->is_encrypted() && !channel->peer()) throw ConnectionLost("it showed no certificate");
+    auto serving = serve(std::move(*channel), nullptr);
+    fault = co_await std::move(serving);
+  } catch (const ConnectionLost& error) {
+    fault = error.what();
+  }
+  co_return fault;
+}
+
+asio::awaitable<void> Sessions::receive(std::optional<Channel>& channel, tcp::socket socket) {
+  auto greeting = greet(std::move(socket), security_, times_.connection.handshake);
+  channel = co_await std::move(greeting);
+}
+
+asio::awaitable<void> Sessions::wait_until_stopping() {
+  while (!stopping_) {
+    asio::error_code woken;
+    co_await ended_.async_wait(asio::redirect_error(asio::use_awaitable, woken));
+  }
 }
 
 void Sessions::dial(DialTarget target) {
@@ -147,9 +176,9 @@ asio::awaitable<void> Sessions::keep_dialled(Dialled& dialled) {
 asio::awaitable<std::string> Sessions::try_target(const Dialled& dialled) {
   std::string fault;
   try {
-    auto dialling = rayfarm::dial(dialled.target.address, exposure_, times_.connection.handshake);
-    tcp::socket socket = co_await std::move(dialling);
-    auto serving = serve(std::move(socket), &dialled);
+    auto dialling = rayfarm::dial(dialled.target.address, security_, times_.connection.handshake);
+    Channel channel = co_await std::move(dialling);
+    auto serving = serve(std::move(channel), &dialled);
     fault = co_await std::move(serving);
   } catch (const AddressError& error) {
     fault = error.what();
@@ -162,10 +191,11 @@ asio::awaitable<std::string> Sessions::try_target(const Dialled& dialled) {
 // A conversation. ------------------------------------------------------------------------------------------
 
 /// Why the peer was not admitted; empty after the conversation with one that was.
-asio::awaitable<std::string> Sessions::serve(tcp::socket socket, const Dialled* dialled) {
+asio::awaitable<std::string> Sessions::serve(Channel channel, const Dialled* dialled) {
   if (stopping_) co_return "the master stops";
-  Session session{{std::move(socket), times_.connection}, dialled, {}, {}};
+  Session session{{std::move(channel), times_.connection}, dialled, {}, {}};
   sessions_.insert(&session);
+  if (dialled) session.connection.post(Heartbeat{});  // who dials begins: what comes tells plaintext from TLS
   std::string reason;
   try {
     auto loops = until_first_ends(session.connection.tend(), converse(session));

@@ -32,7 +32,7 @@ struct DoorTimes {
 class Sessions {
  public:
   /// Listens from now on; throws AddressError when it cannot.
-  Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Exposure exposure,
+  Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Security security,
            DoorTimes times = {});
   ~Sessions();
 
@@ -54,7 +54,10 @@ class Sessions {
   asio::awaitable<void> keep_dialled(Dialled& dialled);
   asio::awaitable<std::string> try_target(const Dialled& dialled);
   asio::awaitable<void> serve_stranger(asio::ip::tcp::socket socket);
-  asio::awaitable<std::string> serve(asio::ip::tcp::socket socket, const Dialled* dialled);
+  asio::awaitable<std::string> try_stranger(asio::ip::tcp::socket socket);
+  asio::awaitable<void> receive(std::optional<Channel>& channel, asio::ip::tcp::socket socket);
+  asio::awaitable<void> wait_until_stopping();
+  asio::awaitable<std::string> serve(Channel channel, const Dialled* dialled);
   asio::awaitable<void> converse(Session& session);
   void open(Session& session, const ToMaster& first);
   void admit(Session& session, const Hello& hello);
@@ -63,7 +66,7 @@ class Sessions {
 
   asio::io_context& io_;
   LiveFarm& farm_;
-  Exposure exposure_;
+  Security security_;
   DoorTimes times_;
   asio::ip::tcp::acceptor acceptor_;
   Address listening_at_;

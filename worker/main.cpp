@@ -51,7 +51,7 @@ WorkerOptions options_of(const Arguments& arguments) {
   else
     options.way = AwaitMaster{parse_address(arguments.listen, default_farm_port)};
   options.identity = {arguments.name, cpu_name(), arguments.threads};
-  options.exposure = arguments.insecure ? Exposure::insecure : Exposure::loopback_only;
+  options.security.exposure = arguments.insecure ? Exposure::insecure : Exposure::loopback_only;
   check(options.identity);
   return options;
 }

@@ -35,9 +35,8 @@ void check(const WorkerIdentity& identity) {
   }
 }
 
-WorkerSession::WorkerSession(asio::ip::tcp::socket socket, WorkerIdentity identity, Crew& crew,
-                             SessionTimes times)
-    : connection_(std::move(socket), times.connection),
+WorkerSession::WorkerSession(Channel channel, WorkerIdentity identity, Crew& crew, SessionTimes times)
+    : connection_(std::move(channel), times.connection),
       identity_(std::move(identity)),
       crew_(crew),
       times_(times),

@@ -25,7 +25,7 @@ struct SessionTimes {
 
 class WorkerSession : public std::enable_shared_from_this<WorkerSession> {
  public:
-  WorkerSession(asio::ip::tcp::socket socket, WorkerIdentity identity, Crew& crew, SessionTimes times);
+  WorkerSession(Channel channel, WorkerIdentity identity, Crew& crew, SessionTimes times);
 
   /// The whole conversation. Returns when the master said goodbye or we did; throws why it ended otherwise.
   asio::awaitable<void> run();

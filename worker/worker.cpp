@@ -19,7 +19,7 @@ Worker::Worker(asio::io_context& io, WorkerOptions options, PrepareScene prepare
       backoff_(options_.backoff, std::random_device{}()),
       ended_(io, std::chrono::steady_clock::time_point::max()) {
   if (const auto* await = std::get_if<AwaitMaster>(&options_.way))
-    acceptor_ = listen_at(io, await->listen, options_.exposure);
+    acceptor_ = listen_at(io, await->listen, options_.security);
 }
 
 std::optional<Address> Worker::listening_at() const {
@@ -67,9 +67,9 @@ asio::awaitable<void> Worker::keep_dialling(Address master) {
 
 asio::awaitable<void> Worker::try_master(Address master) {
   try {
-    auto dialling = dial(master, options_.exposure, options_.times.connection.handshake);
-    tcp::socket socket = co_await std::move(dialling);
-    auto talking = talk(std::move(socket));
+    auto dialling = dial(master, options_.security, options_.times.connection.handshake);
+    Channel channel = co_await std::move(dialling);
+    auto talking = talk(std::move(channel));
     co_await std::move(talking);
   } catch (const ExposureError&) {
     throw;
@@ -85,12 +85,26 @@ asio::awaitable<void> Worker::try_master(Address master) {
 asio::awaitable<void> Worker::await_masters() {
   for (;;) {
     tcp::socket socket = co_await accept(*acceptor_);
-    asio::co_spawn(io_, session_ ? decline(std::move(socket)) : talk(std::move(socket)), asio::detached);
+    asio::co_spawn(io_, serve_stranger(std::move(socket)), asio::detached);
   }
 }
 
-asio::awaitable<void> Worker::decline(tcp::socket socket) {
-  MasterConnection connection(std::move(socket), options_.times.connection);
+asio::awaitable<void> Worker::serve_stranger(tcp::socket socket) {
+  asio::error_code unknown;
+  const std::string address = socket.remote_endpoint(unknown).address().to_string();
+  try {
+    auto greeting = greet(std::move(socket), options_.security, options_.times.connection.handshake);
+    Channel channel = co_await std::move(greeting);
+    if (channel.is_encrypted() && !channel.peer()) throw ConnectionLost("it showed no certificate");
+    auto conversation = session_ ? decline(std::move(channel)) : talk(std::move(channel));
+    co_await std::move(conversation);
+  } catch (const ConnectionLost& error) {
+    spdlog::warn("no master at {}: {}", address, error.what());
+  }
+}
+
+asio::awaitable<void> Worker::decline(Channel channel) {
+  MasterConnection connection(std::move(channel), options_.times.connection);
   connection.post(Goodbye{"this worker works for another master"});
   connection.finish();
   co_await connection.tend();
@@ -98,9 +112,9 @@ asio::awaitable<void> Worker::decline(tcp::socket socket) {
 
 // Both. ----------------------------------------------------------------------------------------------------
 
-asio::awaitable<void> Worker::talk(tcp::socket socket) {
+asio::awaitable<void> Worker::talk(Channel channel) {
   const auto session =
-      std::make_shared<WorkerSession>(std::move(socket), options_.identity, crew_, options_.times);
+      std::make_shared<WorkerSession>(std::move(channel), options_.identity, crew_, options_.times);
   session_ = session;
   const auto begun = std::chrono::steady_clock::now();
   if (stopping_) session->stop();

@@ -22,7 +22,7 @@ struct AwaitMaster {
 struct WorkerOptions {
   std::variant<DialMaster, AwaitMaster> way;
   WorkerIdentity identity;
-  Exposure exposure = Exposure::loopback_only;
+  Security security;
   SessionTimes times;
   BackoffTimes backoff;
 };
@@ -33,8 +33,8 @@ class Worker {
   /// Throws AddressError when it cannot listen where it should.
   Worker(asio::io_context& io, WorkerOptions options, PrepareScene prepare = prepare_scene);
 
-  /// Returns after a clean stop; throws ExposureError when the master is on another PC, and that was not
-  /// allowed.
+  /// Returns after a clean stop; throws ExposureError when it would take a certificate to talk to the master, and
+  /// there is none.
   asio::awaitable<void> run();
   void stop();
 
@@ -45,8 +45,9 @@ class Worker {
   asio::awaitable<void> keep_dialling(Address master);
   asio::awaitable<void> try_master(Address master);
   asio::awaitable<void> await_masters();
-  asio::awaitable<void> talk(asio::ip::tcp::socket socket);
-  asio::awaitable<void> decline(asio::ip::tcp::socket socket);
+  asio::awaitable<void> serve_stranger(asio::ip::tcp::socket socket);
+  asio::awaitable<void> talk(Channel channel);
+  asio::awaitable<void> decline(Channel channel);
   asio::awaitable<void> wait_until_stopped();
   void report(const std::string& loss);
 

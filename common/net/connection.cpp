@@ -4,7 +4,6 @@
 #include <asio/buffer.hpp>
 #include <asio/post.hpp>
 #include <asio/redirect_error.hpp>
-#include <asio/write.hpp>
 #include <cstring>
 
 #include "common/net/until_first_ends.h"
@@ -17,14 +16,6 @@ constexpr std::size_t queue_limit = 128u << 20;
 constexpr std::size_t batch_size = 1u << 20;    // bytes written at once
 constexpr std::size_t buffer_size = 64u << 10;  // grows for larger frames, as their bytes come
 constexpr std::size_t least_rate = 64u << 10;   // bytes per second that a large frame must make
-
-std::string text_of(const asio::ip::tcp::socket& socket) {
-  asio::error_code error;
-  const auto endpoint = socket.remote_endpoint(error);
-  if (error) return "unknown";
-  const std::string address = endpoint.address().to_string();
-  return (endpoint.address().is_v6() ? "[" + address + "]" : address) + ":" + std::to_string(endpoint.port());
-}
 
 std::string seconds(std::chrono::milliseconds time) {
   std::string text = std::to_string(std::chrono::duration<double>(time).count());
@@ -77,17 +68,14 @@ In decode_message(const FrameHeader& header, ByteView payload) {
 }  // namespace
 
 template <class In, class Out>
-Connection<In, Out>::Connection(asio::ip::tcp::socket socket, ConnectionTimes times)
-    : socket_(std::move(socket)),
+Connection<In, Out>::Connection(Channel channel, ConnectionTimes times)
+    : channel_(std::move(channel)),
       times_(times),
-      peer_(text_of(socket_)),
-      queue_changed_(socket_.get_executor(), Clock::time_point::max()),
+      peer_(channel_.address()),
+      queue_changed_(channel_.executor(), Clock::time_point::max()),
       said_(Clock::now()),
       heard_(said_),
-      next_event_(socket_.get_executor()) {
-  asio::error_code ignored;  // a connection that is gone already is noticed at the first read
-  socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
-}
+      next_event_(channel_.executor()) {}
 
 // Ends. ----------------------------------------------------------------------------------------------------
 
@@ -110,7 +98,7 @@ asio::awaitable<void> Connection<In, Out>::tend() {
 
 template <class In, class Out>
 asio::awaitable<void> Connection<In, Out>::wait_for_end() {
-  asio::steady_timer never(socket_.get_executor(), Clock::time_point::max());
+  asio::steady_timer never(channel_.executor(), Clock::time_point::max());
   co_await never.async_wait(asio::use_awaitable);
 }
 
@@ -134,14 +122,14 @@ template <class In, class Out>
 asio::awaitable<void> Connection<In, Out>::write() try {
   for (;;) {
     while (queue_.empty()) {
-      if (finishing_) co_return;
+      if (finishing_) co_return channel_.end_writing();
       asio::error_code woken;
       co_await queue_changed_.async_wait(asio::redirect_error(asio::use_awaitable, woken));
     }
     const std::vector<Frame> batch = take_batch(queue_);
     const std::vector<asio::const_buffer> buffers = buffers_of(batch);
     write_due_ = due(asio::buffer_size(buffers));
-    co_await asio::async_write(socket_, buffers, asio::use_awaitable);
+    co_await channel_.write(buffers);
     write_due_.reset();
     said_ = Clock::now();
     for (const Frame& frame : batch) queued_bytes_ -= frame.head.size();
@@ -194,7 +182,7 @@ asio::awaitable<void> Connection<In, Out>::watch() {
     asio::error_code woken;
     co_await next_event_.async_wait(asio::redirect_error(asio::use_awaitable, woken));
     // Bytes that came while this thread was busy elsewhere count: the reader sees them first.
-    co_await asio::post(socket_.get_executor(), asio::use_awaitable);
+    co_await asio::post(channel_.executor(), asio::use_awaitable);
     const Clock::time_point now = Clock::now();
     check_deadlines(now);
     beat(now);
@@ -221,7 +209,7 @@ asio::awaitable<void> Connection<In, Out>::fill(std::size_t size) try {
     if (end_ > begin_ && !frame_due_) frame_due_ = due(frame_header_size);
     make_room(size);
     const asio::mutable_buffer room = asio::buffer(buffer_) + end_;
-    end_ += co_await socket_.async_read_some(room, asio::use_awaitable);
+    end_ += co_await channel_.read_some(room);
     heard_ = Clock::now();
   }
 } catch (const asio::system_error& error) {

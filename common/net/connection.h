@@ -1,17 +1,17 @@
-// Messages over a TCP connection: framed, bounded in time and memory, with heartbeats both ways.
+// Messages over a channel: framed, bounded in time and memory, with heartbeats both ways.
 //
 // A session is a coroutine with a Connection as local variable, and two loops that run until the first ends:
 //   until_first_ends(connection.tend(), converse(connection));
-// All calls are made from the thread that runs the socket's io_context.
+// All calls are made from the thread that runs the channel's io_context.
 #pragma once
 #include <asio/awaitable.hpp>
-#include <asio/ip/tcp.hpp>
 #include <asio/steady_timer.hpp>
 #include <chrono>
 #include <deque>
 #include <optional>
 #include <string>
 
+#include "common/net/channel.h"
 #include "common/net/codec.h"
 
 namespace rayfarm {
@@ -23,15 +23,10 @@ struct ConnectionTimes {
   std::chrono::milliseconds handshake = handshake_patience;
 };
 
-/// The connection ended; the message says why, as in "lab7 was lost: ...".
-struct ConnectionLost : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 template <class In, class Out>
 class Connection {
  public:
-  Connection(asio::ip::tcp::socket socket, ConnectionTimes times);
+  Connection(Channel channel, ConnectionTimes times);
   Connection(const Connection&) = delete;
 
   /// Puts a message in the queue and returns at once. What cannot be sent, because the peer does not read or
@@ -52,7 +47,8 @@ class Connection {
   /// The next message must come within this time, or tend() throws.
   void expect_message_within(std::chrono::milliseconds patience);
 
-  asio::any_io_executor executor() { return socket_.get_executor(); }
+  asio::any_io_executor executor() { return channel_.executor(); }
+  const Channel& channel() const { return channel_; }
   /// The other end, as ADDRESS:PORT.
   const std::string& peer() const { return peer_; }
 
@@ -70,7 +66,7 @@ class Connection {
   /// How long `bytes` may take.
   Clock::time_point due(std::size_t bytes) const;
 
-  asio::ip::tcp::socket socket_;
+  Channel channel_;
   ConnectionTimes times_;
   std::string peer_;
   std::optional<std::string> ended_;

@@ -1,5 +1,5 @@
 // How many tiles a second go through a master and a worker over loopback, without rendering: assignment, frame,
-// compression, checksum, socket, decompression, film.
+// compression, checksum, encryption, socket, decompression, film; and what each costs of all threads' time.
 #include <benchmark/benchmark.h>
 #include <spdlog/spdlog.h>
 
@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tests/support/farm_jobs.h"
+#include "tests/support/farm_keys.h"
 #include "tests/support/master_thread.h"
 #include "tests/support/worker_thread.h"
 
@@ -30,13 +31,18 @@ std::vector<PassImage> noisy_tile() {
   return tile_of([&] { return color(random); });
 }
 
-void tiles_over_loopback(benchmark::State& state, const std::vector<PassImage>& images) {
+enum class Wire { plaintext, tls };
+
+void tiles_over_loopback(benchmark::State& state, const std::vector<PassImage>& images, Wire wire) {
   spdlog::set_level(spdlog::level::err);
   const RenderSettings settings{.width = 100 * tile_side, .height = 20 * tile_side, .spp = 1};
   const TileRenderer renderer = [&](const RenderSettings&, std::uint32_t, PassSet,
                                     const std::function<bool()>&) { return std::optional(images); };
-  MasterThread master;
-  WorkerThread worker(worker_for(master.address(), "lab7"), [&](Scene) { return renderer; });
+  const FarmKeys keys;
+  MasterThread master(patient_door(), {"127.0.0.1", 0}, wire == Wire::tls ? keys.of_master() : Security{});
+  WorkerOptions options = worker_for(master.address(), "lab7");
+  if (wire == Wire::tls) options.security = keys.of_worker("lab7");
+  WorkerThread worker(options, [&](Scene) { return renderer; });
   master.wait_for_workers(1);
   for (auto _ : state) {
     const JobId job =
@@ -46,10 +52,16 @@ void tiles_over_loopback(benchmark::State& state, const std::vector<PassImage>& 
   }
   state.SetItemsProcessed(state.iterations() * tile_count({settings.width, settings.height}));
 }
-BENCHMARK_CAPTURE(tiles_over_loopback, black, tile_of([] { return 0.0f; }))
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(tiles_over_loopback, noise, noisy_tile())->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void as_it_takes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(tiles_over_loopback, black, tile_of([] { return 0.0f; }), Wire::plaintext)
+    ->Apply(as_it_takes);
+BENCHMARK_CAPTURE(tiles_over_loopback, black_tls, tile_of([] { return 0.0f; }), Wire::tls)
+    ->Apply(as_it_takes);
+BENCHMARK_CAPTURE(tiles_over_loopback, noise, noisy_tile(), Wire::plaintext)->Apply(as_it_takes);
+BENCHMARK_CAPTURE(tiles_over_loopback, noise_tls, noisy_tile(), Wire::tls)->Apply(as_it_takes);
 
 }  // namespace
 }  // namespace rayfarm

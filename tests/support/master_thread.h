@@ -26,8 +26,9 @@ class MasterThread {
   }
 
  public:
-  explicit MasterThread(DoorTimes times = patient_door(), const Address& listen = {"127.0.0.1", 0})
-      : sessions_(io_, farm_, listen, Exposure::loopback_only, times) {
+  explicit MasterThread(DoorTimes times = patient_door(), const Address& listen = {"127.0.0.1", 0},
+                        Security security = {})
+      : sessions_(io_, farm_, listen, std::move(security), times) {
     ended_ = std::async(std::launch::async, [this] { run_until_end(io_, sessions_.run()); });
   }
   /// As kill -9 would: nobody is told.

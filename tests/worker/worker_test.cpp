@@ -191,7 +191,7 @@ TEST(Worker, ThatListensDoesSoOnItsOwnPcUnlessTold) {
   WorkerOptions options = patient_worker("lab7");
   options.way = AwaitMaster{{"0.0.0.0", 0}};
   EXPECT_THROW(Worker(io, options, prepare_positions), ExposureError);
-  options.exposure = Exposure::insecure;
+  options.security.exposure = Exposure::insecure;
   EXPECT_NO_THROW(Worker(io, options, prepare_positions));
 }
 

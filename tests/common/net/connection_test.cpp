@@ -222,28 +222,28 @@ TEST(Connection, EndsWhenAMessageCannotBeSent) {
       "it was to be sent what cannot be sent: a text is not one line of UTF-8 without control characters");
 }
 
-asio::awaitable<void> try_to_dial(Address address, Exposure exposure) {
-  co_await dial(address, exposure, 10s);
+asio::awaitable<void> try_to_dial(Address address, Security security) {
+  co_await dial(address, security, 10s);
 }
 
 template <class Error>
-void expect_dial_fails(const Address& address, Exposure exposure) {
+void expect_dial_fails(const Address& address, const Security& security) {
   asio::io_context io;
-  EXPECT_THROW(run_until_end(io, try_to_dial(address, exposure)), Error);
+  EXPECT_THROW(run_until_end(io, try_to_dial(address, security)), Error);
 }
 
 TEST(Dial, SaysWhatIsWrongWithTheAddress) {
-  expect_dial_fails<AddressError>({"no.such.host.invalid", 5411}, Exposure::insecure);
-  expect_dial_fails<ConnectionLost>({"127.0.0.1", 1}, Exposure::loopback_only);
+  expect_dial_fails<AddressError>({"no.such.host.invalid", 5411}, {Exposure::insecure});
+  expect_dial_fails<ConnectionLost>({"127.0.0.1", 1}, {Exposure::loopback_only});
 }
 
 TEST(Exposure, OfThePlaintextFarmNeedsPermission) {
-  expect_dial_fails<ExposureError>({"192.0.2.1", 5411}, Exposure::loopback_only);
+  expect_dial_fails<ExposureError>({"192.0.2.1", 5411}, {Exposure::loopback_only});
   asio::io_context io;
-  EXPECT_THROW(listen_at(io, {"0.0.0.0", 0}, Exposure::loopback_only), ExposureError);
-  EXPECT_NO_THROW(listen_at(io, {"0.0.0.0", 0}, Exposure::insecure));
-  EXPECT_NO_THROW(listen_at(io, {"localhost", 0}, Exposure::loopback_only));
-  EXPECT_THROW(listen_at(io, {"192.0.2.1", 0}, Exposure::insecure), AddressError);  // not ours
+  EXPECT_THROW(listen_at(io, {"0.0.0.0", 0}, {Exposure::loopback_only}), ExposureError);
+  EXPECT_NO_THROW(listen_at(io, {"0.0.0.0", 0}, {Exposure::insecure}));
+  EXPECT_NO_THROW(listen_at(io, {"localhost", 0}, {Exposure::loopback_only}));
+  EXPECT_THROW(listen_at(io, {"192.0.2.1", 0}, {Exposure::insecure}), AddressError);  // not ours
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "master/local_threads.h"
 #include "tests/support/farm_jobs.h"
+#include "tests/support/farm_keys.h"
 #include "tests/support/master_thread.h"
 #include "tests/support/worker_thread.h"
 
@@ -37,6 +38,27 @@ TEST(FarmAtWork, MakesTheFilmWithOneTwoAndThreeWorkers) {
       workers.emplace_back(worker_for(master.address(), "lab" + std::to_string(i)), prepare_positions);
     EXPECT_EQ(RunningJob(master).finished_film().rgb(), expected.rgb());
   }
+}
+
+TEST(FarmAtWork, MakesTheFilmOverEncryptedConnectionsWhoeverDials) {
+  const FarmKeys keys;
+  MasterThread master(patient_door(), {"127.0.0.1", 0}, keys.of_master());
+  WorkerOptions dials = worker_for(master.address(), "dials"), listens = patient_worker("listens");
+  dials.security = keys.of_worker("dials"), listens.security = keys.of_worker("listens");
+  listens.way = AwaitMaster{{"127.0.0.1", 0}};
+  WorkerThread one(dials, prepare_positions), two(listens, prepare_positions);
+  master.dial({"dialled", two.listening_at()});
+  master.wait_for_workers(2);
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+}
+
+TEST(FarmAtWork, TakesNoPlaintextWhenItIsClosed) {
+  const FarmKeys keys;
+  MasterThread master(patient_door(), {"127.0.0.1", 0}, keys.of_master());
+  WorkerThread stranger(worker_for(master.address(), "stranger"), prepare_positions);
+  const auto log = [&] { return master.ask([&](Farm&, FarmTime) { return master.door().log(0); }); };
+  while (log().empty()) std::this_thread::yield();
+  EXPECT_EQ(log()[0].event.text, "no worker at 127.0.0.1: it does not encrypt what it says");
 }
 
 TEST(FarmAtWork, MakesTheFilmWithItsOwnThreads) {

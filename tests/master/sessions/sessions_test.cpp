@@ -214,8 +214,8 @@ TEST(Sessions, SayGoodbyeToAllWhenTheMasterStops) {
 TEST(Sessions, StayOnTheirOwnPcUnlessTold) {
   asio::io_context io;
   LiveFarm farm;
-  EXPECT_THROW(Sessions(io, farm, {"0.0.0.0", 0}, Exposure::loopback_only), ExposureError);
-  EXPECT_NO_THROW(Sessions(io, farm, {"0.0.0.0", 0}, Exposure::insecure));
+  EXPECT_THROW(Sessions(io, farm, {"0.0.0.0", 0}, Security{}), ExposureError);
+  EXPECT_NO_THROW(Sessions(io, farm, {"0.0.0.0", 0}, Security{Exposure::insecure}));
 }
 
 TEST(DialTarget, HasANameAndAnAddress) {
