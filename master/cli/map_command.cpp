@@ -125,6 +125,7 @@ void add_map_command(CLI::App& app, Command& chosen) {
     kinds += "\n  " + names.back() + ": " + std::string(kind.help);
   }
   command->add_option("KIND", arguments->kind, map_names())->required()->check(CLI::IsMember(names));
+  const std::span<const std::string_view> reductions = reduction_names();
   add_sample_options(*command, arguments->picture);
   command->add_option("--threads", arguments->threads, "Threads to use (default: all of this PC)")
       ->check(CLI::Range(1u, 1024u));
@@ -135,9 +136,9 @@ void add_map_command(CLI::App& app, Command& chosen) {
       ->required();
   command
       ->add_option("--reduce", arguments->reduction,
-                   "How samples become a depth or normal: majority (default: the surface that most show), "
-                   "mean, closest or median")
-      ->check(CLI::IsMember({"majority", "mean", "closest", "median"}));
+                   "How samples become a depth, normal or coverage: majority (default: the surface that most "
+                   "show), second, third or fourth (those that fewer show), mean, closest or median")
+      ->check(CLI::IsMember(std::vector<std::string>(reductions.begin(), reductions.end())));
   command->add_flag("--compat", arguments->compatible,
                     "As the original renderer: all-rays without shadow rays, its formula of normal-camera");
   command

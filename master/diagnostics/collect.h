@@ -35,7 +35,7 @@ class PixelObserver : public CountingObserver {
   }
 
   /// What is known of the pixel now; the caller adds the time.
-  PixelFacts facts() const { return {counters - before_, surfaces_.reduced(all_weight_)}; }
+  PixelFacts facts() const { return {counters - before_, surfaces_.reduced(all_weight_), all_weight_}; }
   const PixelSurfaces& surfaces() const { return surfaces_; }
 
  private:

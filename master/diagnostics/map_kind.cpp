@@ -1,6 +1,7 @@
 #include "master/diagnostics/map_kind.h"
 
 #include <array>
+#include <vector>
 
 #include "common/math/number.h"
 
@@ -11,7 +12,7 @@ template <std::size_t n>
 using Names = std::array<std::string_view, n>;
 
 constexpr Names<1> z{"Z"}, primary{"RayCount.primary"}, all{"RayCount.all"}, samples{"Samples"}, cost{"Cost"},
-    worker{"Worker"};
+    coverage{"Coverage"}, worker{"Worker"};
 constexpr Names<3> normal{"N.X", "N.Y", "N.Z"}, camera_normal{"Nc.X", "Nc.Y", "Nc.Z"};
 
 void put_number(double value, float* into) { *into = static_cast<float>(value); }
@@ -57,6 +58,17 @@ constexpr MapKind maps[] = {
      .has_compatible = true,
      .put = [](const PixelFacts& p, const MapView& view,
                float* into) { put_vector(p.surface ? camera_normal_of(*p.surface, view) : nowhere, into); }},
+    {.name = "coverage",
+     .title = "Coverage",
+     .unit = "share of the samples",
+     .help = "share of the samples that show the first surface",
+     .channels = coverage,
+     .reduces = true,
+     .put =
+         [](const PixelFacts& p, const MapView&, float* into) {
+           const std::uint64_t shown = p.surface ? p.surface->weight : 0;
+           put_number(static_cast<double>(shown) / static_cast<double>(p.weight), into);
+         }},
     {.name = "primary-rays",
      .title = "Primary rays",
      .unit = "rays",
@@ -109,13 +121,19 @@ const MapKind* map_named(std::string_view name) {
   return nullptr;
 }
 
-std::string map_names() {
+std::string listed(std::span<const std::string_view> names) {
   std::string text;
-  for (const MapKind& map : maps) {
-    if (&map != &maps[0]) text += &map + 1 == std::end(maps) ? " or " : ", ";
-    text += map.name;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
   }
   return text;
+}
+
+std::string map_names() {
+  std::vector<std::string_view> names;
+  for (const MapKind& map : maps) names.push_back(map.name);
+  return listed(names);
 }
 
 }  // namespace rayfarm

@@ -29,6 +29,7 @@ enum class MapScale : std::uint8_t { depth, count, normal, label };  // label: n
 struct PixelFacts {
   RayCounters rays;                // of source surfaces: primary and primary_hits alone
   std::optional<Surface> surface;  // as reduced; none where the pixel shows nothing
+  std::uint64_t weight = 0;        // of all its samples
   double seconds = 0;              // of source time
 };
 
@@ -55,5 +56,6 @@ const MapKind* map_named(std::string_view name);  // "depth", "normal-camera", .
 
 /// "depth, normal, ... or cost".
 std::string map_names();
+std::string listed(std::span<const std::string_view> names);  // "a, b or c"
 
 }  // namespace rayfarm

@@ -11,17 +11,20 @@ FlatFaces flat_faces_of(const Solid& solid) {
   return std::visit([](const auto& s) { return s.flat_faces; }, solid);
 }
 
-constexpr std::array<std::string_view, 4> reduction_names{"majority", "mean", "closest", "median"};
+constexpr std::array<std::string_view, 7> names{"majority", "second",  "third", "fourth",
+                                                "mean",     "closest", "median"};
 
 }  // namespace
 
+std::span<const std::string_view> reduction_names() { return names; }
+
 std::optional<Reduction> reduction_named(std::string_view name) {
-  for (std::size_t i = 0; i < reduction_names.size(); ++i)
-    if (reduction_names[i] == name) return static_cast<Reduction>(i);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return static_cast<Reduction>(i);
   return std::nullopt;
 }
 
-std::string_view name_of(Reduction reduction) { return reduction_names[static_cast<std::size_t>(reduction)]; }
+std::string_view name_of(Reduction reduction) { return names[static_cast<std::size_t>(reduction)]; }
 
 PixelSurfaces::Sums& PixelSurfaces::Sums::operator+=(const Sums& o) {
   weight += o.weight, distance += o.distance;
@@ -121,6 +124,13 @@ std::optional<Surface> PixelSurfaces::reduced(std::uint64_t all) const {
   switch (reduction_) {
     case Reduction::majority:
       return majority(all - hit_weight());
+    case Reduction::second:
+    case Reduction::third:
+    case Reduction::fourth: {
+      const std::vector<Surface> surfaces = ranked();
+      const auto rank = static_cast<std::size_t>(reduction_);
+      return rank < surfaces.size() ? std::optional(surfaces[rank]) : std::nullopt;
+    }
     case Reduction::mean:
       return all_sums().mean(ranks_[0].first);
     case Reduction::closest:

@@ -26,9 +26,12 @@ struct Surface {
 /// How the samples of a pixel become one value.
 enum class Reduction : std::uint8_t {
   majority,  // the mean of the surface that most samples show; nothing if more show nothing
-  mean,      // of all samples that hit, as the original renderer
-  closest,   // the sample nearest to the camera
-  median,    // the sample in the middle by distance, those that hit nothing behind all others
+  second,    // that of the surface with the second most samples, if there is one; and so on
+  third,
+  fourth,
+  mean,     // of all samples that hit, as the original renderer
+  closest,  // the sample nearest to the camera
+  median,   // the sample in the middle by distance, those that hit nothing behind all others
 };
 
 /// Whether two points of a face lie on one sheet of it, as seen from about the same place.
@@ -49,6 +52,7 @@ inline bool on_one_sheet(const Hit& a, const Hit& b) {
   return side_by_side || rise_a * rise_b <= 0;
 }
 
+std::span<const std::string_view> reduction_names();
 std::optional<Reduction> reduction_named(std::string_view name);
 std::string_view name_of(Reduction reduction);
 

@@ -45,7 +45,7 @@ MapRequest map_request(const Call& call) {
   const std::string& name = call.arguments.at(1);
   MapRequest request{map_named(name)};
   if (!request.kind) throw ApiError(404, "there is no map " + name + ", but " + map_names());
-  request.reduction = choice_in(call, "reduce", "majority", "majority, mean, closest or median",
+  request.reduction = choice_in(call, "reduce", "majority", listed(reduction_names()),
                                 [](const std::string& text) { return reduction_named(text); });
   request.compatible = switch_in(call, "compat");
   return request;

@@ -61,6 +61,24 @@ TEST(Map, NoReductionButTheMeanShowsADepthOfNoSurface) {
   EXPECT_GT(mixed, 30);  // why the others are there
 }
 
+TEST(Map, CoveragesOfTheRankedSurfacesAddUpToTheSamplesThatHit) {
+  const Scene scene = balls_before_a_plane();  // no pixel shows more than four surfaces
+  std::vector<float> sum;
+  for (const Reduction rank : {Reduction::majority, Reduction::second, Reduction::third, Reduction::fourth}) {
+    const Map coverage = map_by(scene, {map_named("coverage"), rank}),
+              distance = map_by(scene, {depth, rank});
+    sum.resize(coverage.values.size());
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      sum[i] += coverage.values[i];
+      const bool is_shown = coverage.values[i] > 0;
+      EXPECT_EQ(is_shown, std::isfinite(distance.values[i]));
+      EXPECT_TRUE(!is_shown || is_depth_of_a_surface(distance.values[i]));
+      EXPECT_LE(coverage.values[i], rank == Reduction::majority ? 1 : 0.5);
+    }
+  }
+  for (const float all : sum) EXPECT_EQ(all, 1);  // the plane is everywhere
+}
+
 TEST(Map, WherePixelsShowNothingTheDepthIsInfinite) {
   Scene scene = balls_before_a_plane();
   scene.nodes.pop_back();

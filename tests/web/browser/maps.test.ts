@@ -87,6 +87,7 @@ const kinds: Record<string, Kind> = {
   depth: { channels: 1, of: fourDecimals },
   normal: { channels: 3, of: fourDecimals },
   "normal-camera": { channels: 3, of: fourDecimals },
+  coverage: { channels: 1, of: fourDecimals },
   "primary-rays": { channels: 1, of: (value) => value },
   "all-rays": { channels: 1, of: (value) => value },
   samples: { channels: 1, of: (value) => value },

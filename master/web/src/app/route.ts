@@ -3,7 +3,7 @@
 import { batch, effect, signal } from "@preact/signals";
 import { chosenFrame } from "./frames";
 import { layer, selectedId } from "./state";
-import type { LayerChoice, Reduction } from "./types";
+import { type LayerChoice, reductions } from "./types";
 
 export type Page = "jobs" | "submit" | "workers";
 export type Query = Record<string, string>;
@@ -28,13 +28,11 @@ export function hashOf(route: Route): string {
   return `#/${route.page}${job}${query ? `?${query}` : ""}`;
 }
 
-const reductions: readonly string[] = ["majority", "mean", "closest", "median"] satisfies Reduction[];
-
 export function layerIn(query: Query): LayerChoice {
   const reduce = query.reduce ?? "";
   return {
     layer: query.layer ?? "picture",
-    reduce: reductions.includes(reduce) ? (reduce as Reduction) : "majority",
+    reduce: reductions.find((each) => each === reduce) ?? "majority",
     compat: query.compat === "1",
   };
 }

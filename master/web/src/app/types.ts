@@ -126,7 +126,8 @@ export interface MapEntry {
   help: string;
 }
 
-export type Reduction = "majority" | "mean" | "closest" | "median";
+export const reductions = ["majority", "second", "third", "fourth", "mean", "closest", "median"] as const;
+export type Reduction = (typeof reductions)[number];
 
 /// What a picture view shows of a job: "picture" or a map.
 export interface LayerChoice {

@@ -1,7 +1,5 @@
 import { layer } from "../app/state";
-import type { MapEntry, Reduction } from "../app/types";
-
-const reductions: Reduction[] = ["majority", "mean", "closest", "median"];
+import { type MapEntry, type Reduction, reductions } from "../app/types";
 
 /// How a map is made of many samples, and by whose formula.
 export function MapChoices({ map }: { map: MapEntry }) {
