@@ -13,6 +13,7 @@ picture() {  # NAME SIZE [OPTIONS]
 }
 
 picture animated_scene 320x180
+picture bezier 320x240
 picture circus 320x240
 picture cubes 320x240 -p mat=glass
 picture cylinders 320x240

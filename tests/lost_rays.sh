@@ -28,6 +28,7 @@ count() {  # NAME [OPTIONS]
 
 count animated_scene
 count animated_scene --frame 125
+count bezier
 count circus
 for mat in diffuse mirror glass; do
   count cubes -p "mat=$mat"

@@ -61,6 +61,7 @@ inline std::vector<ScenePicture> other_scenes() {
           {"ToroidsOrienteering", Words{scene_file("toroids_orienteering")} + options},
           {"Optics", Words{scene_file("optics")} + options},
           {"OpticsRayCasting", Words{scene_file("optics"), "-p", "rc=true"} + options},
+          {"Bezier", Words{scene_file("bezier")} + options},
           {"Glasshenge", Words{scene_file("glasshenge")} + options},
           {"Flags", Words{scene_file("flags")} + options},
           {"AnimatedScene", Words{scene_file("animated_scene"), "--frame", "77"} + options}};

@@ -47,13 +47,29 @@ Leaf leaf_of(const Inherited& above, std::string kind, std::vector<double> numbe
 
 const char* const operation_names[] = {"union", "intersection", "difference", "xor"};
 
+/// The control points of each patch, row by row.
+std::vector<double> numbers_of(const BezierGrid& grid) {
+  std::vector<double> numbers;
+  for (std::size_t patch = 0; patch < std::size_t{grid.rows} * grid.columns; ++patch)
+    for (std::size_t i = 0; i < 16; ++i) {
+      const Vec3d& p = grid.at(3 * (patch / grid.columns) + i / 4, 3 * (patch % grid.columns) + i % 4);
+      numbers.insert(numbers.end(), {p.x, p.y, p.z});
+    }
+  return numbers;
+}
+
 struct KindAndNumbers {
+  const Scene& scene;
+
   using Pair = std::pair<std::string, std::vector<double>>;
   Pair operator()(const Sphere&) const { return {"Sphere", {}}; }
   Pair operator()(const Cube&) const { return {"Cube", {}}; }
   Pair operator()(const Plane&) const { return {"Plane", {}}; }
   Pair operator()(const Cylinder& c) const { return {"Cylinder", {c.z_min, c.z_max}}; }
   Pair operator()(const Torus& t) const { return {"Torus", {t.R, t.r}}; }
+  Pair operator()(const Bezier& b) const {
+    return {"BezierSurface", numbers_of(std::get<BezierGrid>(*scene.assets[b.asset].content()))};
+  }
   template <class Other>
   Pair operator()(const Other&) const {
     return {"not of the original's", {}};
@@ -69,13 +85,13 @@ std::size_t spread(const Scene& scene, std::size_t index, Inherited state, std::
   state.no_shadow = state.no_shadow || node.no_shadow;
 
   if (const auto* solid = std::get_if<Solid>(&node.content)) {
-    const auto [kind, numbers] = std::visit(KindAndNumbers{}, *solid);
+    const auto [kind, numbers] = std::visit(KindAndNumbers{scene}, *solid);
     leaves.push_back(leaf_of(state, kind, numbers));
     return index + 1;
   }
   if (const auto* glow = std::get_if<Glow>(&node.content)) {
     // As in the facts: a color that the callback gives, and no shadow.
-    const auto [kind, numbers] = std::visit(KindAndNumbers{}, glow->shape);
+    const auto [kind, numbers] = std::visit(KindAndNumbers{scene}, glow->shape);
     state.color = glow->color, state.no_shadow = true;
     EXPECT_EQ(glow->exponent, 16u);
     leaves.push_back(leaf_of(state, kind + "Front", numbers));
@@ -140,6 +156,10 @@ std::vector<double> numbers_from(const std::string& type, const json& params) {
   if (type == "Torus") keys = {"R", "r"};
   std::vector<double> numbers;
   for (const std::string& key : keys) numbers.push_back(number_from(params.at(key)));
+  if (type == "BezierSurface")
+    for (const json& patch : params.at("patches"))
+      for (const json& point : patch.at("points_P00_P01_P02_P03_P10_etc"))
+        for (const json& coordinate : point) numbers.push_back(coordinate.get<double>());
   return numbers;
 }
 
@@ -308,6 +328,7 @@ TEST(Scenes, ToroidsOrienteeringIsTheOriginals) {
   expect_scene_is(scene_of("toroids_orienteering"), facts("ToroidsOrienteering"));
 }
 TEST(Scenes, OpticsIsTheOriginals) { expect_scene_is(scene_of("optics"), facts("Optics")); }
+TEST(Scenes, BezierIsTheOriginals) { expect_scene_is(scene_of("bezier"), facts("Bezier")); }
 TEST(Scenes, GlasshengeIsTheOriginals) { expect_scene_is(scene_of("glasshenge"), facts("Glasshenge")); }
 TEST(Scenes, FlagsIsTheOriginals) { expect_scene_is(scene_of("flags"), facts("Flags")); }
 TEST(Scenes, AnimatedSceneIsTheOriginals) {
@@ -379,7 +400,7 @@ TEST(Scenes, EveryScriptSaysWhatItShows) {
     EXPECT_TRUE(first.starts_with("-- ")) << file.path();
     EXPECT_NO_THROW(evaluate_file(file.path(), {}, 0)) << file.path();
   }
-  EXPECT_GE(scripts, 16u);
+  EXPECT_GE(scripts, 17u);
 }
 
 TEST(Scenes, AFlakeOf137257SpheresIsEvaluated) {
