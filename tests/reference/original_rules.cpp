@@ -76,12 +76,30 @@ Spans spans_by_rules(const Solid& solid, const Ray& local) {
   return is_missed ? Spans{} : spans_of(solid, local);
 }
 
+/// A sheet as a wall without an end: behind its front is inside, up to the next crossing or for ever.
+Spans spans_with_inside(const std::vector<Crossing>& crossings, const Ray& local) {
+  if (crossings.empty()) return {};
+  return {glm::dot(crossings.front().gradient, local.direction) > 0, crossings};
+}
+
+/// What one part has on the surface of the whole.
+std::vector<Spans> whole_scene(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray,
+                               const Rules& rules) {
+  return {spans_of(scene, leaves, ray, rules)};
+}
+
 bool is_far_enough(const Crossing& c, const Ray& ray) {
   return c.t > 0 && c.t * c.t * glm::dot(ray.direction, ray.direction) > 1e-8L;
 }
 
 }  // namespace
 
-Rules original_rules() { return {.spans = spans_by_rules, .coincidence = 0, .is_ahead = is_far_enough}; }
+Rules original_rules() {
+  return {.spans = spans_by_rules,
+          .coincidence = 0,
+          .is_ahead = is_far_enough,
+          .of_sheet = spans_with_inside,
+          .blockers = whole_scene};
+}
 
 }  // namespace rayfarm::reference

@@ -33,5 +33,9 @@ TEST(Agreement, RandomScenesWithAllThatFewScenesHave) {
   expect_agreement_on_random_scenes("special", random_special_scene, 0, 150);
 }
 
+TEST(Agreement, RandomScenesOfMeshesAndPatches) {
+  expect_agreement_on_random_scenes("faceted", random_faceted_scene, 0, 60);
+}
+
 }  // namespace
 }  // namespace rayfarm

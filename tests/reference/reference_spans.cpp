@@ -2,147 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
-#include "tests/reference/reference_torus.h"
+#include "tests/reference/reference_surfaces.h"
 
 namespace rayfarm::reference {
 namespace {
 
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
-
 // A secondary ray does not meet the surfaces that lie this part of their coordinates in front of its start.
 constexpr Real left_behind = 1e-12L;
 
-// A convex solid's part of the line, cut down by one boundary after the other.
-struct Chord {
-  Real enter = -infinity, leave = infinity;
-  Vec enter_gradient{0}, leave_gradient{0};
-
-  void clip(Real t0, const Vec& g0, Real t1, const Vec& g1) {
-    if (t0 > enter) enter = t0, enter_gradient = g0;
-    if (t1 < leave) leave = t1, leave_gradient = g1;
-  }
-  void clip_all() { enter = infinity, leave = -infinity; }
-};
-
-// Keeps what has dot(gradient, p) < limit.
-void clip_half_space(Chord& chord, const Ray& ray, const Vec& gradient, Real limit) {
-  if (std::isinf(limit)) return;
-  const Real excess = glm::dot(gradient, ray.origin) - limit, slope = glm::dot(gradient, ray.direction);
-  if (slope > 0) chord.clip(-infinity, gradient, -excess / slope, gradient);
-  if (slope < 0) chord.clip(-excess / slope, gradient, infinity, gradient);
-  if (slope == 0 && excess >= 0) chord.clip_all();
-}
-
-// Keeps what is nearer than 1 to the origin, the components that `axes` makes zero not counted.
-void clip_unit_ball(Chord& chord, const Ray& ray, const Vec& axes) {
-  const Vec o = ray.origin * axes, d = ray.direction * axes;
-  const Real dd = glm::dot(d, d);
-  if (dd == 0) {
-    if (glm::dot(o, o) >= 1) chord.clip_all();
-    return;
-  }
-  const Real t_closest = -glm::dot(o, d) / dd;
-  const Vec closest = o + t_closest * d;
-  const Real rest = 1 - glm::dot(closest, closest);
-  if (rest <= 0) return chord.clip_all();
-  const Real half = std::sqrt(rest / dd);
-  chord.clip(t_closest - half, closest - half * d, t_closest + half, closest + half * d);
-}
-
-Chord chord_of(const Sphere&, const Ray& ray) {
-  Chord chord;
-  clip_unit_ball(chord, ray, Vec(1, 1, 1));
-  return chord;
-}
-
-Chord chord_of(const Cube&, const Ray& ray) {
-  Chord chord;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec out(0);
-    out[axis] = 1;
-    clip_half_space(chord, ray, -out, 0);
-    clip_half_space(chord, ray, out, 1);
-  }
-  return chord;
-}
-
-Chord chord_of(const Plane&, const Ray& ray) {
-  Chord chord;
-  clip_half_space(chord, ray, Vec(0, 0, 1), 0);
-  return chord;
-}
-
-Chord chord_of(const Cylinder& cylinder, const Ray& ray) {
-  Chord chord;
-  clip_unit_ball(chord, ray, Vec(1, 1, 0));
-  clip_half_space(chord, ray, Vec(0, 0, -1), -Real(cylinder.z_min));
-  clip_half_space(chord, ray, Vec(0, 0, 1), cylinder.z_max);
-  return chord;
-}
-
-Spans spans_of_chord(const Chord& chord) {
-  Spans spans;
-  if (!(chord.enter < chord.leave)) return spans;
-  spans.starts_inside = chord.enter == -infinity;
-  if (!spans.starts_inside) spans.crossings.push_back({.t = chord.enter, .gradient = chord.enter_gradient});
-  if (chord.leave != infinity)
-    spans.crossings.push_back({.t = chord.leave, .gradient = chord.leave_gradient});
-  return spans;
-}
-
-Spans spans_of_solid(const Mesh&, const Ray&) {
-  throw std::invalid_argument("the reference tracer has no meshes");
-}
-Spans spans_of_solid(const Bezier&, const Ray&) {
-  throw std::invalid_argument("the reference tracer has no Bezier surfaces");
-}
-Spans spans_of_solid(const Torus& torus, const Ray& ray) { return spans_of_torus(torus, ray); }
-
-// x^2 + y^2 - z^2 < 0 between the roots, or before the first and after the last.
-Spans spans_of_solid(const Cone& cone, const Ray& ray) {
-  const Vec metric(1, 1, -1);
-  const Vec o = ray.origin, d = ray.direction;
-  const Real a = glm::dot(d * metric, d), b = glm::dot(o * metric, d), c = glm::dot(o * metric, o);
-  const Vec m = glm::cross(o, d);
-  const Real rest = glm::dot(m * metric, m);  // b^2 - a c
-  if (rest <= 0 || a == 0) return {};
-  const Real root = std::sqrt(rest), q = -(b + std::copysign(root, b));
-  const Real first = std::min(c / q, q / a), last = std::max(c / q, q / a);
-  const auto gradient = [&](Real t) { return metric * (o + t * d); };
-
-  std::vector<Chord> nappes(1);
-  nappes[0].clip(first, gradient(first), last, gradient(last));
-  if (a < 0) {
-    nappes.assign(2, {});
-    nappes[0].clip(-infinity, Vec(0), first, gradient(first));
-    nappes[1].clip(last, gradient(last), infinity, Vec(0));
-  }
-  Spans spans;
-  for (Chord& nappe : nappes) {
-    clip_half_space(nappe, ray, Vec(0, 0, -1), -Real(cone.z_min));
-    clip_half_space(nappe, ray, Vec(0, 0, 1), cone.z_max);
-    const Spans part = spans_of_chord(nappe);
-    spans.starts_inside = spans.starts_inside || part.starts_inside;
-    spans.crossings.insert(spans.crossings.end(), part.crossings.begin(), part.crossings.end());
-  }
-  return spans;
-}
-
-template <class Convex>
-Spans spans_of_solid(const Convex& solid, const Ray& ray) {
-  return spans_of_chord(chord_of(solid, ray));
-}
-
 Real size_of(const Vec& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+Spans spans_of_leaf(const Leaf& leaf, const Ray& local, const Rules& rules) {
+  if (!leaf.surface) return rules.spans(leaf.solid, local);
+  const std::vector<Crossing> crossings = crossings_of(*leaf.surface, local);
+  return leaf.surface->closed ? spans_of_closed(crossings, local) : rules.of_sheet(crossings, local);
+}
 
 }  // namespace
 
 Spans spans_of(const Leaf& leaf, int number, const Ray& ray, const Rules& rules) {
   const Ray local{leaf.local_from_world * (ray.origin - leaf.offset), leaf.local_from_world * ray.direction};
-  Spans spans = rules.spans(leaf.solid, local);
+  Spans spans = spans_of_leaf(leaf, local, rules);
   bool inside = spans.starts_inside;
   for (Crossing& c : spans.crossings) {
     const Vec p = local.origin + (c.t + c.to_point) * local.direction;
@@ -246,6 +128,10 @@ void place(const Scene& scene, Leaf inherited, std::size_t& index, Placed& place
     return;
   }
   inherited.solid = std::get<Solid>(node.content);
+  if (const auto* mesh = std::get_if<Mesh>(&inherited.solid))
+    inherited.surface = surface_of(*mesh, *scene.assets.at(mesh->asset).content());
+  if (const auto* bezier = std::get_if<Bezier>(&inherited.solid))
+    inherited.surface = surface_of(*bezier, *scene.assets.at(bezier->asset).content());
   placed.leaves.push_back(std::move(inherited));
 }
 
@@ -260,10 +146,6 @@ Placed placed_parts(const Scene& scene) {
 
 std::vector<Leaf> leaves_of(const Scene& scene) { return placed_parts(scene).leaves; }
 std::vector<PlacedGlow> glows_of(const Scene& scene) { return placed_parts(scene).glows; }
-
-Spans spans_of(const Solid& solid, const Ray& local) {
-  return std::visit([&](const auto& s) { return spans_of_solid(s, local); }, solid);
-}
 
 Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray, const Rules& rules) {
   std::size_t node = 0;

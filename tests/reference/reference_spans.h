@@ -3,21 +3,18 @@
 // precision; it shares nothing with the core but the Scene value, so that the two can be held against each
 // other.
 #pragma once
-#include <glm/glm.hpp>
 #include <optional>
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "tests/reference/reference_surfaces.h"
 
 namespace rayfarm::reference {
-
-using Real = long double;
-using Vec = glm::vec<3, Real, glm::defaultp>;
-using Mat = glm::mat<3, 3, Real, glm::defaultp>;
 
 /// A leaf of the tree with all that it inherits.
 struct Leaf {
   Solid solid;
+  std::optional<Surface> surface;  // of a mesh or Bezier surface
   Mat world_from_local{1};
   Mat local_from_world{1};  // of directions; points are taken relative to `offset` first
   Vec offset{0};
@@ -32,38 +29,21 @@ struct PlacedGlow {
   Leaf leaf;  // where a line is inside it; a tube's is endless
 };
 
-struct Ray {
-  Vec origin{0}, direction{0};
-};
-
-struct Crossing {
-  Real t = 0;
-  Real to_point = 0;      // its point is at t + to_point: 0 but by the original's rules
-  int leaf = 0;           // preorder number among the leaves
-  bool entering = false;  // the state behind it: inside the result of the operators so far
-  Vec gradient{0};        // local, points out of the solid
-  Vec normal{0};          // world, unit, points out of the solid
-  Real size = 0;          // of the coordinates it was made from
-};
-
-/// The line is inside from t = -infinity (or not), and changes sides at each crossing.
-struct Spans {
-  bool starts_inside = false;
-  std::vector<Crossing> crossings;  // ascending t
-};
-
 /// The leaves in preorder.
 std::vector<Leaf> leaves_of(const Scene& scene);
 std::vector<PlacedGlow> glows_of(const Scene& scene);
-
-/// The spans of one solid in its local space; t is that of the ray given. Only t and gradient are set.
-Spans spans_of(const Solid& solid, const Ray& local);
 
 /// How far the crossing lies in front of the ray's origin, measured across its surface.
 Real depth_across(const Crossing& crossing, const Ray& ray);
 
 /// A ray that starts on a surface leaves behind what lies less than rounding of the coordinates in front of it.
 bool is_ahead(const Crossing& crossing, const Ray& ray);
+
+struct Rules;
+
+/// The spans of each part of the scene, its topmost unions taken apart: also what lies within another part.
+std::vector<Spans> spans_of_parts(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray,
+                                  const Rules& rules);
 
 /// What of the tracer can be had as the original has it (original_rules.h), to show what differs.
 struct Rules {
@@ -73,6 +53,10 @@ struct Rules {
   Real coincidence = 1e-13L;
   /// Whether a ray that starts on a surface meets the crossing, or leaves it behind.
   bool (*is_ahead)(const Crossing&, const Ray&) = reference::is_ahead;
+  Spans (*of_sheet)(const std::vector<Crossing>&, const Ray& local) = spans_of_sheet;
+  /// What may block a light, each by itself.
+  std::vector<Spans> (*blockers)(const Scene&, const std::vector<Leaf>&, const Ray&,
+                                 const Rules&) = spans_of_parts;
 };
 
 /// The spans of one leaf in world space.
@@ -81,9 +65,5 @@ Spans spans_of(const Leaf& leaf, int number, const Ray& ray, const Rules& rules 
 /// The spans of the whole tree. Surfaces nearer to each other than rounding of the scene's own numbers count
 /// as one.
 Spans spans_of(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray, const Rules& rules = {});
-
-/// The spans of each part of the scene, its topmost unions taken apart: also what lies within another part.
-std::vector<Spans> spans_of_parts(const Scene& scene, const std::vector<Leaf>& leaves, const Ray& ray,
-                                  const Rules& rules = {});
 
 }  // namespace rayfarm::reference

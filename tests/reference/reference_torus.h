@@ -1,6 +1,6 @@
 // The torus of the reference tracer, in 113-bit precision.
 #pragma once
-#include "tests/reference/reference_spans.h"
+#include "tests/reference/reference_solids.h"
 
 namespace rayfarm::reference {
 

@@ -18,7 +18,7 @@ struct Tracer {
   const ReferenceSettings& settings;
 };
 
-struct Surface {
+struct Shaded {
   Vec point{0}, normal{0}, color{0};
   Material material;
 };
@@ -101,41 +101,12 @@ std::optional<Crossing> next_crossing(const Spans& spans, const Ray& ray, const 
 
 // The crossing's own normal says which way the solid was passed; the operators may have turned that round.
 Vec normal_of(const Crossing& c, const Ray& ray) {
+  if (c.of_sheet) return c.normal;
   const bool front = glm::dot(c.normal, ray.direction) < 0;
   return c.entering == front ? c.normal : -c.normal;
 }
 
-// Texture coordinates.
-// -----------------------------------------------------------------------------------------
-
-using Uv = glm::vec<2, Real, glm::defaultp>;
-
-Real turn(Real y, Real x) { return std::atan2(y, x) / (2 * pi) + 0.5L; }
-
-Uv uv_of(const Sphere&, const Vec& p, const Vec&) {
-  const Real s = std::hypot(p.x, p.y);
-  return {s == 0 ? 0 : turn(p.y, p.x), std::atan2(s, p.z) / pi};
-}
-Uv uv_of(const Cube&, const Vec& p, const Vec& gradient) {
-  if (gradient.x != 0) return {p.y, p.z};
-  return gradient.y != 0 ? Uv(p.x, p.z) : Uv(p.x, p.y);
-}
-Uv uv_of(const Plane&, const Vec& p, const Vec&) { return {p.x, p.y}; }
-Uv uv_of(const Cylinder&, const Vec& p, const Vec& gradient) {
-  return {gradient.z != 0 ? 0 : turn(p.y, p.x), p.z};
-}
-Uv uv_of(const Cone&, const Vec& p, const Vec& gradient) {
-  return {gradient.x == 0 && gradient.y == 0 ? 0 : turn(p.y, p.x), p.z};
-}
-Uv uv_of(const Torus& torus, const Vec& p, const Vec&) {
-  const Real R = torus.R, rho = std::hypot(p.x, p.y), to_near = rho - R, to_far = -(rho + R);
-  const auto off_tube = [&](Real s) { return std::abs(s * s + p.z * p.z - Real(torus.r) * torus.r); };
-  const Real s = off_tube(to_near) <= off_tube(to_far) ? to_near : to_far;
-  return {turn(p.y, p.x), turn(s, p.z)};
-}
-
-Uv uv_of(const Mesh&, const Vec&, const Vec&) { return {0, 0}; }    // spans_of_solid() has refused it
-Uv uv_of(const Bezier&, const Vec&, const Vec&) { return {0, 0}; }  // as well
+// Textures. ---------------------------------------------------------------------------------------------------------
 
 bool is_odd(Real u, Real v) { return std::fmod(std::floor(u) + std::floor(v), Real(2)) != 0; }
 
@@ -154,11 +125,11 @@ Vec textured(const Texture& texture, const Uv& uv, const Vec& color) {
   return takes_color(stripes, uv.x, uv.y) ? Vec(stripes.color) : color;
 }
 
-Surface surface_of(const Leaf& leaf, const Crossing& c, const Ray& ray) {
-  Surface surface{ray.origin + (c.t + c.to_point) * ray.direction, normal_of(c, ray),
-                  Vec(leaf.color.value_or(leaf.material.color)), leaf.material};
+Shaded shaded_at(const Leaf& leaf, const Crossing& c, const Ray& ray) {
+  Shaded surface{ray.origin + (c.t + c.to_point) * ray.direction, normal_of(c, ray),
+                 Vec(leaf.color.value_or(leaf.material.color)), leaf.material};
   const Vec local = leaf.local_from_world * (surface.point - leaf.offset);
-  const Uv uv = std::visit([&](const auto& solid) { return uv_of(solid, local, c.gradient); }, leaf.solid);
+  const Uv uv = leaf.surface ? c.uv : uv_of(leaf.solid, local, c.gradient);
   for (const Texture& texture : leaf.textures) surface.color = textured(texture, uv, surface.color);
   return surface;
 }
@@ -196,7 +167,7 @@ void add_total_reflection(Weights& k, const Material& m, Real a) {
 }
 
 // What comes from direction l (unit) and leaves in direction v.
-Vec phong(const Surface& s, const Vec& l, const Vec& v) {
+Vec phong(const Shaded& s, const Vec& l, const Vec& v) {
   const Real a = glm::dot(l, s.normal);
   Weights k = weights_of(s.material, a);
   std::optional<Vec> main;
@@ -214,27 +185,27 @@ Vec phong(const Surface& s, const Vec& l, const Vec& v) {
 }
 
 bool is_blocked(const Tracer& tracer, const Ray& to_light) {
-  for (const Spans& spans : spans_of_parts(tracer.scene, tracer.leaves, to_light, tracer.rules))
+  for (const Spans& spans : tracer.rules.blockers(tracer.scene, tracer.leaves, to_light, tracer.rules))
     for (const Crossing& c : spans.crossings)
       if (c.t < 1 && tracer.rules.is_ahead(c, to_light) && !tracer.leaves[c.leaf].no_shadow) return true;
   return false;
 }
 
-Vec from_point(const Tracer& tracer, const Surface& s, const Vec& v, const Vec& at, const Vec& intensity) {
+Vec from_point(const Tracer& tracer, const Shaded& s, const Vec& v, const Vec& at, const Vec& intensity) {
   const Ray to_light{s.point, at - s.point};
   if (glm::dot(to_light.direction, s.normal) <= 0) return Vec(0);
   if (tracer.settings.shadows && is_blocked(tracer, to_light)) return Vec(0);
   return intensity * phong(s, unit(to_light.direction), v);
 }
 
-Vec light_from(const Tracer&, const AmbientLight& light, const Surface& s, const Vec& v) {
+Vec light_from(const Tracer&, const AmbientLight& light, const Shaded& s, const Vec& v) {
   const Real inside = glm::dot(v, s.normal) > 0 ? 1 : s.material.transmission;
   return Vec(light.intensity) * s.color * Real(s.material.ambient) * inside;
 }
-Vec light_from(const Tracer& tracer, const PointLight& light, const Surface& s, const Vec& v) {
+Vec light_from(const Tracer& tracer, const PointLight& light, const Shaded& s, const Vec& v) {
   return from_point(tracer, s, v, Vec(light.at), Vec(light.intensity));
 }
-Vec light_from(const Tracer& tracer, const RectangleLight& light, const Surface& s, const Vec& v) {
+Vec light_from(const Tracer& tracer, const RectangleLight& light, const Shaded& s, const Vec& v) {
   const Vec at = Vec(light.at) + Real(tracer.settings.light_uv.x) * Vec(light.width) +
                  Real(tracer.settings.light_uv.y) * Vec(light.height);
   const Real distance = std::sqrt(glm::dot(at - s.point, at - s.point));
@@ -242,7 +213,7 @@ Vec light_from(const Tracer& tracer, const RectangleLight& light, const Surface&
   return from_point(tracer, s, v, at, Vec(light.intensity) / dimming);
 }
 
-Vec direct_light(const Tracer& tracer, const Surface& s, const Vec& v) {
+Vec direct_light(const Tracer& tracer, const Shaded& s, const Vec& v) {
   if (tracer.scene.lights.empty()) return s.color;
   Vec sum(0);
   for (const Light& light : tracer.scene.lights)
@@ -255,7 +226,7 @@ Vec direct_light(const Tracer& tracer, const Surface& s, const Vec& v) {
 
 Vec radiance(const Tracer& tracer, const Ray& ray, int depth, Real importance);
 
-Vec shade(const Tracer& tracer, const Surface& s, const Vec& v, int depth, Real importance) {
+Vec shade(const Tracer& tracer, const Shaded& s, const Vec& v, int depth, Real importance) {
   const ReferenceSettings& settings = tracer.settings;
   Vec color = direct_light(tracer, s, v);
   if (depth >= settings.max_depth) return color;
@@ -302,7 +273,7 @@ Vec radiance(const Tracer& tracer, const Ray& ray, int depth, Real importance) {
   const auto hit = depth > 0 ? next_crossing(spans, ray, tracer.rules) : first_crossing(spans);
   Vec color(tracer.scene.background);
   if (hit)
-    color = shade(tracer, surface_of(tracer.leaves[hit->leaf], *hit, ray), -unit(ray.direction), depth,
+    color = shade(tracer, shaded_at(tracer.leaves[hit->leaf], *hit, ray), -unit(ray.direction), depth,
                   importance);
   for (const PlacedGlow& glow : tracer.glows) color += glow_on(glow, ray, depth > 0, hit);
   return color;

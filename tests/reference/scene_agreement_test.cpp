@@ -49,6 +49,7 @@ TEST(Agreement, Toroids) { expect_agreement("toroids"); }
 TEST(Agreement, ToroidsOrienteering) { expect_agreement("toroids_orienteering"); }
 TEST(Agreement, Optics) { expect_agreement("optics"); }
 TEST(Agreement, OpticsByRayCasting) { expect_agreement("optics", {{"rc", "true"}}); }
+TEST(Agreement, Bezier) { expect_agreement("bezier"); }
 TEST(Agreement, Glasshenge) {
   // Not in the centres: the symmetric camera sees exact edges of the floor's squares through very many of them.
   Comparison comparison = comparison_of("glasshenge", scene_of("glasshenge", {}, 0));

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/solid_definitions.h"
+#include "tests/support/surfaces.h"
+
 namespace rayfarm {
 namespace {
 
@@ -178,7 +181,10 @@ Scene random_special_scene(std::uint64_t seed) {
   Scene scene = random_scene(seed);
   Dice dice(~seed);
   scene.camera = another_camera(dice, std::get<PerspectiveCamera>(scene.camera));
+  const std::vector<Solid> solids = all_solids();
   for (Node& node : scene.nodes) {
+    if (std::holds_alternative<Solid>(node.content) && dice.chance(0.3))
+      node.content = solids[static_cast<std::size_t>(dice.one_of(static_cast<int>(solids.size())))];
     node.no_shadow = dice.chance(0.2);
     for (Texture& texture : node.textures)
       if (dice.chance(0.5)) texture = Stripes{dice.between(-8, 8), dice.between(-8, 8), dice.vec(0, 1)};
@@ -187,6 +193,26 @@ Scene random_special_scene(std::uint64_t seed) {
   for (int i = 0; i < 4; ++i) parts.push_back(random_glow(dice));
   parts[0].content = Operation{CsgOp::unite, static_cast<std::uint32_t>(parts.size())};
   scene.nodes.insert(scene.nodes.begin(), parts.begin(), parts.end());
+  return scene;
+}
+
+Scene random_faceted_scene(std::uint64_t seed) {
+  Scene scene = seed % 2 == 0 ? random_scene(seed) : random_snapped_scene(seed);
+  Dice dice(~seed);
+  scene.assets = {Asset("cube", cube_mesh()), Asset("ball", ball_mesh(4, 6)),
+                  Asset("round ball", ball_grid()), Asset("hill", hill_grid())};
+  for (Node& node : scene.nodes) {
+    auto* solid = std::get_if<Solid>(&node.content);
+    if (!solid || dice.chance(0.3)) continue;
+    if (std::holds_alternative<Cube>(*solid)) *solid = Mesh{0, false};
+    if (std::holds_alternative<Sphere>(*solid))
+      *solid = dice.chance(0.5) ? Solid{Mesh{1, false}} : Solid{Bezier{2}};
+  }
+  Node sheet, both;
+  sheet.content = Solid{Bezier{3}}, sheet.parent_from_node = any_leaf(dice);
+  both.content = Operation{CsgOp::unite, 2};
+  dress(dice, scene, sheet);
+  scene.nodes.insert(scene.nodes.begin(), {both, sheet});
   return scene;
 }
 

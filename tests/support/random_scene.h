@@ -14,7 +14,12 @@ Scene random_scene(std::uint64_t seed);
 /// again. The camera stands anywhere.
 Scene random_snapped_scene(std::uint64_t seed);
 
-/// random_scene(seed) seen by any camera, with what few scenes have: glow shells, stripes, parts without a shadow.
+/// random_scene(seed) seen by any camera, with what few scenes have: all solids, glow shells, stripes, parts without
+/// a shadow.
 Scene random_special_scene(std::uint64_t seed);
+
+/// random_scene(seed) or random_snapped_scene(seed), in turn, where cubes and spheres may be closed meshes and Bezier
+/// surfaces, with an open one beside it.
+Scene random_faceted_scene(std::uint64_t seed);
 
 }  // namespace rayfarm

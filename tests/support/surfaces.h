@@ -8,6 +8,17 @@
 
 namespace rayfarm {
 
+/// [0, 1]^3, each face cut in two.
+inline TriangleMesh cube_mesh() {
+  TriangleMesh cube;
+  for (int i = 0; i < 8; ++i) cube.points.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)});
+  const std::array<std::array<std::uint32_t, 4>, 6> faces{
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const auto& [a, b, c, d] : faces)
+    cube.triangles.push_back({a, b, c}), cube.triangles.push_back({a, c, d});
+  return cube;
+}
+
 /// A closed, convex ball of radius 1: rings of quads cut in two, and caps.
 inline TriangleMesh ball_mesh(std::uint32_t rings, std::uint32_t columns) {
   constexpr double pi = 3.14159265358979323846;

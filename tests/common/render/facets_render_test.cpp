@@ -10,16 +10,6 @@ namespace {
 
 Asset asset_with(AssetContent content) { return decode_asset(asset_data(content)); }
 
-TriangleMesh cube_mesh() {
-  TriangleMesh cube;
-  for (int i = 0; i < 8; ++i) cube.points.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)});
-  const std::array<std::array<std::uint32_t, 4>, 6> faces{
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  for (const auto& [a, b, c, d] : faces)
-    cube.triangles.push_back({a, b, c}), cube.triangles.push_back({a, c, d});
-  return cube;
-}
-
 Node node_with(std::variant<Operation, Solid> content, const Affine& map = {}) {
   Node node;
   if (const auto* solid = std::get_if<Solid>(&content)) node.content = *solid;

@@ -22,7 +22,8 @@ RayCounters counters_of(const Scene& scene) {
 
 TEST(LostRays, ThereAreNoneAlsoWhereFacesCoincide) {
   std::uint64_t sent = 0;
-  for (Scene (*make)(std::uint64_t) : {random_scene, random_snapped_scene, random_special_scene})
+  for (Scene (*make)(std::uint64_t) :
+       {random_scene, random_snapped_scene, random_special_scene, random_faceted_scene})
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
       const RayCounters c = counters_of(make(seed));
       EXPECT_EQ(c.lost, 0u) << seed;

@@ -44,7 +44,8 @@ TEST(RayTests, CountBoxesSolidsAndCrossings) {
 }
 
 TEST(RayTests, WhoCountsFindsTheSame) {
-  for (Scene (*make)(std::uint64_t) : {random_scene, random_snapped_scene, random_special_scene})
+  for (Scene (*make)(std::uint64_t) :
+       {random_scene, random_snapped_scene, random_special_scene, random_faceted_scene})
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const World world(make(seed));
       const CameraRays camera(world.scene().camera, {24, 24});

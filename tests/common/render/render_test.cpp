@@ -91,7 +91,8 @@ TEST(Render, AllLengthsTimesAPowerOfTwoGiveTheSameBits) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     RenderSettings s = small_settings();
     s.spp = 1;
-    for (Scene (*make)(std::uint64_t) : {random_scene, random_snapped_scene, random_special_scene}) {
+    for (Scene (*make)(std::uint64_t) :
+         {random_scene, random_snapped_scene, random_special_scene, random_faceted_scene}) {
       const Scene scene = make(seed);
       const Film here = rendered(World(scene), s);
       for (const int k : {-20, -7, 3, 20})
