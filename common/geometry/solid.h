@@ -72,6 +72,16 @@ struct Torus {
   bool operator==(const Torus&) const = default;
 };
 
+/// [0,1]^3 with edges and corners rounded by r, 0 < r <= 0.5, which makes it a ball.
+struct RoundedCube {
+  double r = 0.1;
+
+  static constexpr std::string_view name = "rounded_cube";
+  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  std::array<NamedNumber, 1> numbers() const { return {{{"r", r}}}; }
+  bool operator==(const RoundedCube&) const = default;
+};
+
 /// A surface of triangles or of Bezier patches, by its number in Scene::assets. It is a solid when it is closed, else
 /// a sheet.
 struct Mesh {
@@ -93,7 +103,7 @@ struct Bezier {
   bool operator==(const Bezier&) const = default;
 };
 
-using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus, Cone, Mesh, Bezier>;
+using Solid = std::variant<Sphere, Cube, Plane, Cylinder, Torus, Cone, Mesh, Bezier, RoundedCube>;
 
 /// The number of the asset that a solid is made of; none for those made of a few numbers.
 inline const std::uint32_t* asset_of(const Solid& solid) {

@@ -15,6 +15,7 @@
 #include "common/geometry/cylinder.h"
 #include "common/geometry/faceted_solid.h"
 #include "common/geometry/plane.h"
+#include "common/geometry/rounded_cube.h"
 #include "common/geometry/sphere.h"
 #include "common/geometry/torus.h"
 

@@ -22,6 +22,10 @@ void serialize(Archive& archive, Torus& t) {
   archive(t.R, t.r);
 }
 template <class Archive>
+void serialize(Archive& archive, RoundedCube& c) {
+  archive(c.r);
+}
+template <class Archive>
 void serialize(Archive& archive, Mesh& m) {
   archive(m.asset);
   boolean(archive, m.smooth);

@@ -78,6 +78,10 @@ struct SolidFault {
     if (!(std::isfinite(t.r) && t.r > 0)) return "r must be positive, is " + text(t.r);
     return {};
   }
+  std::string operator()(const RoundedCube& c) const {
+    if (c.r > 0 && c.r <= 0.5) return {};
+    return "r must be above 0 and at most 0.5, is " + text(c.r);
+  }
   template <class WithoutNumbers>
   std::string operator()(const WithoutNumbers&) const {
     return {};

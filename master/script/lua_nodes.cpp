@@ -14,6 +14,7 @@ const Signature plane_signature{"plane", {}};
 const Signature cylinder_signature{"cylinder", {"zmin", "zmax"}, 2};
 const Signature cone_signature{"cone", {"zmin", "zmax"}, 2};
 const Signature torus_signature{"torus", {"R", "r"}, 2};
+const Signature rounded_cube_signature{"rounded_cube", {"r"}, 1};
 const Signature glow_sphere_signature{"glow_sphere", {"color", "exponent"}};
 const Signature glow_cylinder_signature{"glow_cylinder", {"zmin", "zmax", "color", "exponent"}, 2};
 
@@ -56,6 +57,14 @@ int make_torus(lua_State* L) {
   torus.R = fields.number("R", torus.R, Range::positive);
   torus.r = fields.number("r", torus.r, Range::positive);
   return push_solid(L, torus);
+}
+
+int make_rounded_cube(lua_State* L) {
+  const Fields fields(L, 1, rounded_cube_signature);
+  RoundedCube cube;
+  cube.r = fields.number("r", cube.r, Range::positive);
+  if (cube.r > 0.5) throw SceneError(fields.place("r") + " must be at most 0.5, is " + text_of(cube.r));
+  return push_solid(L, cube);
 }
 
 // Glow shells. ----------------------------------------------------------------------------------------------
@@ -192,6 +201,7 @@ void open_nodes(lua_State* L) {
   lua_register(L, "cylinder", guarded<make_cylinder>);
   lua_register(L, "cone", guarded<make_cone>);
   lua_register(L, "torus", guarded<make_torus>);
+  lua_register(L, "rounded_cube", guarded<make_rounded_cube>);
   lua_register(L, "glow_sphere", guarded<make_glow_sphere>);
   lua_register(L, "glow_cylinder", guarded<make_glow_cylinder>);
   lua_register(L, "union", guarded<make_union>);
@@ -201,10 +211,19 @@ void open_nodes(lua_State* L) {
 }
 
 const std::vector<Signature>& node_signatures() {
-  static const std::vector<Signature> all{sphere_signature,      cube_signature,          plane_signature,
-                                          cylinder_signature,    cone_signature,          torus_signature,
-                                          glow_sphere_signature, glow_cylinder_signature, {"union", {}},
-                                          {"intersection", {}},  {"difference", {}},      {"xor", {}}};
+  static const std::vector<Signature> all{sphere_signature,
+                                          cube_signature,
+                                          plane_signature,
+                                          cylinder_signature,
+                                          cone_signature,
+                                          torus_signature,
+                                          rounded_cube_signature,
+                                          glow_sphere_signature,
+                                          glow_cylinder_signature,
+                                          {"union", {}},
+                                          {"intersection", {}},
+                                          {"difference", {}},
+                                          {"xor", {}}};
   return all;
 }
 

@@ -81,6 +81,30 @@ Chord chord_of(const Cylinder& cylinder, const Ray& ray) {
   return chord;
 }
 
+// From the first to the last of its 27 parts: along each axis a part lies before, beside or behind the core [r,1-r]^3.
+Chord chord_of(const RoundedCube& cube, const Ray& ray) {
+  const Real r = cube.r;
+  Chord whole{infinity, -infinity};
+  for (int part = 0; part < 27; ++part) {
+    const int places[] = {part % 3, part / 3 % 3, part / 9};
+    Chord chord;
+    Vec centre(r), beyond(1);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (places[axis] == 2) centre[axis] = 1 - r;
+      if (places[axis] != 1) continue;
+      Vec along(0);
+      along[axis] = 1, beyond[axis] = 0;
+      clip_half_space(chord, ray, -along, -r);
+      clip_half_space(chord, ray, along, 1 - r);
+    }
+    if (beyond != Vec(0)) clip_unit_ball(chord, {(ray.origin - centre) / r, ray.direction / r}, beyond);
+    if (!(chord.enter < chord.leave)) continue;
+    if (chord.enter < whole.enter) whole.enter = chord.enter, whole.enter_gradient = chord.enter_gradient;
+    if (chord.leave > whole.leave) whole.leave = chord.leave, whole.leave_gradient = chord.leave_gradient;
+  }
+  return whole;
+}
+
 Spans spans_of_chord(const Chord& chord) {
   Spans spans;
   if (!(chord.enter < chord.leave)) return spans;
@@ -145,6 +169,11 @@ Uv uv_of_solid(const Sphere&, const Vec& p, const Vec&) {
 Uv uv_of_solid(const Cube&, const Vec& p, const Vec& gradient) {
   if (gradient.x != 0) return {p.y, p.z};
   return gradient.y != 0 ? Uv(p.x, p.z) : Uv(p.x, p.y);
+}
+Uv uv_of_solid(const RoundedCube&, const Vec& p, const Vec& gradient) {
+  const Vec size = glm::abs(gradient);
+  if (size.x >= std::max(size.y, size.z)) return {p.y, p.z};
+  return size.y >= size.z ? Uv(p.x, p.z) : Uv(p.x, p.y);
 }
 Uv uv_of_solid(const Plane&, const Vec& p, const Vec&) { return {p.x, p.y}; }
 Uv uv_of_solid(const Cylinder&, const Vec& p, const Vec& gradient) {

@@ -28,16 +28,16 @@ void cut_slab(Chord& chord, Quad o, Quad d, Quad low, Quad high) {
   chord.cut(std::min(a, b), std::max(a, b));
 }
 
-/// |p| < 1 for the components that o and d have.
-void cut_ball(Chord& chord, const QuadVec& o, const QuadVec& d) {
+/// |p| < radius for the components that o and d have.
+void cut_ball(Chord& chord, const QuadVec& o, const QuadVec& d, Quad radius = 1) {
   const Quad dd = dot(d, d);
   if (dd == 0) {
-    if (!(dot(o, o) < 1)) chord.cut_all();
+    if (!(dot(o, o) < radius * radius)) chord.cut_all();
     return;
   }
   const Quad t = -dot(o, d) / dd;
   const QuadVec p = o + d * t;
-  const Quad rest = 1 - dot(p, p);
+  const Quad rest = radius * radius - dot(p, p);
   if (rest <= 0) return chord.cut_all();
   const Quad half = sqrt(rest / dd);
   chord.cut(t - half, t + half);
@@ -75,6 +75,36 @@ QuadSpans cone_spans(const Cone& cone, const QuadRay& r) {
     add(spans, nappe);
   }
   return spans;
+}
+
+/// The hull of its three boxes, twelve tubes and eight balls.
+Chord rounded_cube_chord(const RoundedCube& cube, const QuadRay& ray) {
+  const Quad r = cube.r, far = 1 - r;
+  Chord all{endless, -endless};
+  const auto add_part = [&](const Chord& part) {
+    if (!(part.enter < part.leave)) return;
+    all.enter = std::min(all.enter, part.enter), all.leave = std::max(all.leave, part.leave);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    Chord box;
+    for (int i = 0; i < 3; ++i)
+      cut_slab(box, ray.origin[i], ray.direction[i], i == axis ? 0 : r, i == axis ? 1 : far);
+    add_part(box);
+  }
+  for (int number = 0; number < 32; ++number) {
+    const int axis = number / 8;  // of a tube; 3: a ball
+    QuadVec o = ray.origin, d = ray.direction;
+    Chord part;
+    for (int i = 0; i < 3; ++i) {
+      o[i] = o[i] - (number >> i & 1 ? far : r);
+      if (i != axis) continue;
+      cut_slab(part, ray.origin[i], ray.direction[i], r, far);
+      o[i] = d[i] = 0;
+    }
+    cut_ball(part, o, d, r);
+    add_part(part);
+  }
+  return all;
 }
 
 using Quartic = std::array<Quad, 5>;  // by rising power
@@ -140,6 +170,7 @@ QuadSpans quad_spans(const Solid& solid, const QuadRay& r) {
                         cut_slab(chord, o.z, d.z, c.z_min, c.z_max);
                       },
                       [&](const Cone& c) { spans = cone_spans(c, r), chord.cut_all(); },
+                      [&](const RoundedCube& c) { chord = rounded_cube_chord(c, r); },
                       [&](const Torus& t) { spans = torus_spans(t, r), chord.cut_all(); },
                       [](const auto& faceted) {
                         throw std::invalid_argument(std::string(faceted.name) + " has cases of its own");

@@ -16,8 +16,9 @@ namespace rayfarm {
 /// Of each kind at least one; where a parameter changes what it looks like, one of each look.
 inline std::vector<Solid> all_solids() {
   constexpr double endless = std::numeric_limits<double>::infinity();
-  return {Sphere{},       Cube{},        Plane{},           Cylinder{-0.5, 0.75}, Cylinder{},
-          Cone{-0.75, 1}, Cone{0.25, 1}, Cone{-1, endless}, Torus{1, 0.25},       Torus{0.5, 0.8}};
+  return {Sphere{},       Cube{},          Plane{},          Cylinder{-0.5, 0.75},
+          Cylinder{},     Cone{-0.75, 1},  Cone{0.25, 1},    Cone{-1, endless},
+          Torus{1, 0.25}, Torus{0.5, 0.8}, RoundedCube{0.2}, RoundedCube{0.5}};
 }
 
 /// Positive outside, negative inside, near the surface about the distance from it. Any vector type will do.
@@ -39,6 +40,11 @@ auto beyond(const Solid& solid, const Vec& p) {
                // Of a spindle torus the lemon inside is left out.
                [&](const Torus& t) -> Real {
                  return std::max(std::hypot(round - t.R, p.z) - t.r, t.r - std::hypot(round + t.R, p.z));
+               },
+               [&](const RoundedCube& c) -> Real {
+                 const auto out = [&](Real at) { return std::max(limits(c.r, 1 - Real(c.r), at), Real(0)); };
+                 const Real x = out(p.x), y = out(p.y), z = out(p.z);
+                 return std::sqrt(x * x + y * y + z * z) - c.r;
                },
                [](const auto& faceted) -> Real {
                  throw std::invalid_argument(std::string(faceted.name) + " has no definition in numbers");

@@ -5,6 +5,7 @@
 #include "common/render/world_parts.h"
 #include "tests/common/geometry/rays.h"
 #include "tests/support/random_scene.h"
+#include "tests/support/solid_definitions.h"
 
 namespace rayfarm {
 namespace {
@@ -82,10 +83,6 @@ TEST(Csg, ARayIsInsideAnObjectWhereItsPointsAre) {
   EXPECT_GT(checked, 5'000);
 }
 
-std::vector<Solid> all_solids() {
-  return {Sphere{}, Cube{}, Cylinder{-0.5, 0.75}, Torus{1, 0.25}, Torus{0.5, 0.8}, Plane{}};
-}
-
 /// Two chains of transforms that are the same in exact arithmetic, the first stretched by up to 10^decades.
 std::pair<Affine, Affine> twin_chains(RandomRays& random, double decades = 0) {
   const double a = random.uniform(-180, 180), b = random.uniform(-180, 180);
@@ -129,6 +126,38 @@ TEST(Csg, ASolidMinusItselfIsNothingWhateverItsTransforms) {
               << "solid " << solid.index() << " op " << static_cast<int>(op);
         }
       }
+}
+
+// So they need no common name to be known as one.
+TEST(Csg, SolidsThatAreTheSameInAllBitsCrossInTheSameBits) {
+  RandomRays random(17);
+  CsgWorkspace ws;
+  for (const Solid& solid : all_solids()) {
+    const Affine map = twin_chains(random, 2).first;
+    const auto world_of = [&](CsgOp op) {
+      Scene scene;
+      scene.nodes = {inner(CsgOp::subtract, 2), inner(op, 2), leaf(solid, map), leaf(solid, map),
+                     leaf(Sphere{})};
+      scene.nodes[4].parent_from_node.offset = {1e9, 0, 0};
+      return World(scene);
+    };
+    const World both = world_of(CsgOp::intersect), none = world_of(CsgOp::exclusive_or);
+    const Leaf alone = make_leaf(solid, bounded(map));
+    for (int i = 0; i < 2'000; ++i) {
+      Ray r = random.towards_box(10, 3);
+      r.origin = r.origin + vec(map.offset);
+      ASSERT_EQ(boundaries(none, r, ws), 0) << kind_of(solid);
+      const Crossings c = crossings(alone, RayQuery(r));
+      if (boundaries(both, r, ws) == 0) continue;
+      const auto items = both.parts().items_of(both.parts().objects[0]);
+      gather(items, both.parts().leaves, RayQuery(r), infinity, ws);
+      Boundary b;
+      for (std::size_t next = 0; next_boundary(items, ws, next, b);)
+        ASSERT_TRUE(std::any_of(c.at.begin(), c.at.begin() + c.count, [&](const Crossing& at) {
+          return at.t == b.t && at.error == b.error;
+        })) << kind_of(solid);
+    }
+  }
 }
 
 TEST(Csg, ASolidMinusItselfIsNothingFromItsInsideAlso) {

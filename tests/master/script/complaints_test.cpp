@@ -34,6 +34,7 @@ TEST(Complaints, SuggestTheNameThatWasMeant) {
 
 TEST(Complaints, NameTheFunctionAndWhatItWants) {
   EXPECT_EQ(about("torus{ 1, -1 }"), "test.lua:2: torus: r must be positive, is -1");
+  EXPECT_EQ(about("rounded_cube{ 0.6 }"), "test.lua:2: rounded_cube: r must be at most 0.5, is 0.6");
   EXPECT_EQ(about("torus{ R = 0 }"), "test.lua:2: torus: R must be positive, is 0");
   EXPECT_EQ(about("torus{ 1, r = 2, R = 1 }"),
             "test.lua:2: torus: R is given twice, by name and by position");

@@ -24,6 +24,7 @@ TEST(Language, EachSolidIsMadeByItsName) {
   EXPECT_EQ(std::get<Solid>(scene_with("cone{ zmin = -1 }").nodes[0].content), Solid(Cone{-1, 1}));
   EXPECT_EQ(std::get<Solid>(scene_with("torus{ 2, 0.5 }").nodes[0].content), Solid(Torus{2, 0.5}));
   EXPECT_EQ(std::get<Solid>(scene_with("torus{ r = 2, R = 3 }").nodes[0].content), Solid(Torus{3, 2}));
+  EXPECT_EQ(std::get<Solid>(scene_with("rounded_cube{ 0.3 }").nodes[0].content), Solid(RoundedCube{0.3}));
 }
 
 TEST(Language, TheTreeIsWrittenInPreorder) {
