@@ -34,13 +34,21 @@ inline int quartic_roots(double a, double b, double c, double d, double* roots) 
   return count;
 }
 
-/// The line's roots with the torus, about the ray's own origin.
-inline int torus_roots(const Torus& torus, const Vec3d& o, const Vec3d& d, double* roots) {
+/// Where the line meets the torus: t^4 + a t^3 + b t^2 + c t + d = 0, about the ray's own origin.
+struct MonicQuartic {
+  double a, b, c, d;
+};
+inline MonicQuartic torus_quartic(const Torus& torus, const Vec3d& o, const Vec3d& d) {
   const double dd = dot(d, d), od = dot(o, d), k = dot(o, o) + torus.R * torus.R - torus.r * torus.r;
   const double four = 4 * torus.R * torus.R, per = 1 / (dd * dd);
-  return quartic_roots(4 * dd * od * per, (4 * od * od + 2 * dd * k - four * (d.x * d.x + d.y * d.y)) * per,
-                       (4 * od * k - 2 * four * (o.x * d.x + o.y * d.y)) * per,
-                       (k * k - four * (o.x * o.x + o.y * o.y)) * per, roots);
+  return {4 * dd * od * per, (4 * od * od + 2 * dd * k - four * (d.x * d.x + d.y * d.y)) * per,
+          (4 * od * k - 2 * four * (o.x * d.x + o.y * d.y)) * per,
+          (k * k - four * (o.x * o.x + o.y * o.y)) * per};
+}
+
+inline int torus_roots(const Torus& torus, const Vec3d& o, const Vec3d& d, double* roots) {
+  const MonicQuartic q = torus_quartic(torus, o, d);
+  return quartic_roots(q.a, q.b, q.c, q.d, roots);
 }
 
 inline std::vector<double> ahead_of(const double* roots, int count, double shift) {

@@ -3,6 +3,7 @@
 #include "tests/stability/ferrari.h"
 #include "tests/stability/quad_solids.h"
 #include "tests/stability/scenes.h"
+#include "tests/stability/sturm.h"
 
 namespace rayfarm::stability {
 namespace {
@@ -157,6 +158,7 @@ std::vector<Case> torus_cases() {
            distances,
            {{"Ferrari", "double", wrong(broad_or_grazing, found_by_ferrari<Shot>), {}},
             {"Ferrari, shifted", "double", wrong(broad_or_grazing, found_by_shifted_ferrari<Shot>), {}},
+            {"Sturm, shifted", "double", wrong(broad_or_grazing, found_by_sturm<Shot>), {}},
             {"ours", "double", wrong(broad_or_grazing, found_by_ours), 0.0}},
            size},
           {"S9 torus",
@@ -165,6 +167,7 @@ std::vector<Case> torus_cases() {
            digits,
            {{"Ferrari", "double", wrong(special, found_by_ferrari<Shot>), {}},
             {"Ferrari, shifted", "double", wrong(special, found_by_shifted_ferrari<Shot>), {}},
+            {"Sturm, shifted", "double", wrong(special, found_by_sturm<Shot>), {}},
             {"ours", "double", wrong(special, found_by_ours), 1e-6}},
            size},
           {"S9 torus, from its surface",
