@@ -90,9 +90,25 @@ std::vector<Crop> crops() {
   const Scene touching = seen_along_z(R"(union{
     cube{}:translate(-0.5, -0.5, -0.5):rotate_z(45):rotate_y(20):color{1, 0, 0},
     cube{}:translate(-0.5, -0.5, -0.5):scale(2.6, 1.8, 1):rotate_y(50):rotate_y(-30):color(1) })");
+  const Scene cloth_before_ball = seen_along_z(R"(union{
+    bezier{ { { {-1, -1, 0}, {0, -1, 1}, {0, -1, -1}, {1, -1, 0} }, { {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, 0} },
+              { {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, 0} }, { {-1, 1, 0}, {0, 1, 1}, {0, 1, -1}, {1, 1, 0} } } }
+        :scale(1.2):material(phong{ color = {0.9, 0.6, 0.1}, ambient = 1, transmission = 0.4, index = 1 })
+        :texture(checker{ 4, 4, {0.2, 0.2, 0.7} }),
+    sphere{}:scale(0.4):translate(0.3, 0.3, -1.5):color{0.8, 0, 0} })");
+  const Scene stick_in_ball = seen_along_z(R"(union{
+    cylinder{ -1.1, 1.1 }:scale(0.12, 0.12, 1):rotate_x(90):color{0.8, 0.2, 0},
+    sphere{}:scale(0.6):material(phong{ color = {0.1, 0.2, 0.3}, diffuse = 0.1, transmission = 0.8, index = 1 }):no_shadow(),
+    plane{}:rotate_x(-110):translate(0, -0.9, 0):color(0.9) })");
+  const Scene far_ring = scene_of(R"(return scene{
+    camera = perspective{ from = {0, 1500, -5000}, direction = {0, -0.3, 1}, angle = 0.032 }, background = {0, 0.05, 0.07},
+    lights = { ambient(0.8), point{ at = {-2500, 2000, -3000} } },
+    root = torus{ 1, 0.3 }:rotate_x(70):color{0.9, 0.6, 0.1} })");
   const Scene half_ball =
       seen_along_z("intersection{ sphere{}, plane{}:rotate_x(-90):translate(0, 0.3, 0) }:color{0.8, 0.6, 0}");
-  return {{"torus", scene_of(text_of("toroids")), 640, 480, 20, 335, 160, 40, 2},
+  return {{"torus", far_ring, 120, 80, 0, 0, 120, 80, 3},
+          {"sheet", cloth_before_ball, 90, 80, 0, 0, 90, 80, 4},
+          {"no_shadow", stick_in_ball, 120, 80, 0, 0, 120, 80, 3},
           {"contact", touching, 90, 60, 0, 0, 90, 60, 4},
           {"axial_cylinder", seen_along_z("cylinder{ -1, 1 }:color{0.1, 0.7, 0}"), 45, 45, 0, 0, 45, 45, 5},
           {"parallel_plane", half_ball, 45, 45, 0, 0, 45, 45, 5},
