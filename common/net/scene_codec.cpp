@@ -7,7 +7,8 @@
 namespace rayfarm {
 namespace {
 
-constexpr std::uint8_t scene_format = 2;
+/// Raised whenever the bytes of a scene change their meaning: see SceneCodec.TheFormatsNumberChangesWithTheBytes.
+constexpr std::uint8_t scene_format = 3;
 constexpr std::size_t max_raw_scene = std::size_t{1} << 30;  // bytes; max_nodes plain nodes need 0.9 GB
 
 }  // namespace
