@@ -24,11 +24,12 @@ std::string short_number(double value) {
 }
 
 template <class Number>
-Number number_of(const std::string& text) {
+Number number_of(const std::string& text, std::size_t line) {
   Number number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size())
-    throw CsvError("a number is wanted where there is \"" + text + "\"");
+    throw CsvError("line " + std::to_string(line) + ": a number is wanted where there is \"" +
+                   text.substr(0, 40) + "\"");
   return number;
 }
 
@@ -57,9 +58,10 @@ std::vector<StabilityRow> stability_rows(std::string_view csv) {
   std::vector<StabilityRow> rows;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const CsvRow& f = lines[i];
-    rows.push_back({f[0], f[1], f[2], f[3], f[4], number_of<double>(f[5]), number_of<std::uint64_t>(f[6]),
-                    number_of<std::uint64_t>(f[7]),
-                    f[10].empty() ? std::nullopt : std::optional(number_of<double>(f[10]))});
+    const auto number = [&](std::size_t field) { return number_of<double>(f[field], i + 1); };
+    const auto count = [&](std::size_t field) { return number_of<std::uint64_t>(f[field], i + 1); };
+    rows.push_back({f[0], f[1], f[2], f[3], f[4], number(5), count(6), count(7),
+                    f[10].empty() ? std::nullopt : std::optional(number(10))});
   }
   return rows;
 }

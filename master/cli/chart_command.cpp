@@ -89,8 +89,8 @@ std::vector<ConvergencePoint> measured(const World& world, RenderSettings settin
 
 ExitCode chart_samplers(const ChartArguments& a) {
   note_interrupts();
-  make_folder(a.folder);
   PreparedScene scene = prepare(a.picture);
+  make_folder(a.folder);
   const World world(std::move(scene.scene));
   const std::vector<ConvergencePoint> points = measured(world, scene.settings, a);
   const std::string name = fs::path(a.picture.scene_file).stem();

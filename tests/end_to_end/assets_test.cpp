@@ -58,12 +58,52 @@ TEST_F(AssetPrograms, EveryCommandTakesSuchAScene) {
   EXPECT_EQ(stats.exit_code, 0);
 }
 
-TEST_F(AssetPrograms, ABrokenFileIsABadScene) {
-  write("tent.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
-  const ProgramResult result =
-      rayfarm(Words{"render"} + picture() + Words{"-o", (folder / "x.exr").string()});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("tent.obj:3"), std::string::npos) << result.err;
+struct BrokenFile {
+  std::string name, content, place;  // where, and what is wrong
+};
+
+std::vector<BrokenFile> broken_files() {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto ply = [](const std::string& format, const std::string& faces) {
+    return "ply\nformat " + format + " 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" +
+           "property float z\nelement face " + faces +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+  };
+  const std::string text = ply("ascii", "1"), binary = ply("binary_little_endian", "1");
+  return {{"a.obj", points + "v 0 nan 0\nf 1 2 3\n", "a.obj:4: \"nan\" is no finite number"},
+          {"a.obj", points + "f 1 2 9\n", "a.obj:4: names point 9, but the file has 3"},
+          {"a.obj", points + "f 1 2", "a.obj:4: a face needs 3 corners, has 2"},
+          {"a.obj", points, "a.obj has no triangles"},
+          {"a.ply", text + "0 0 0\n1 0 0\n0 inf 0\n3 0 1 2\n", "a.ply:12: a vertex has a number that is not"},
+          {"a.ply", text + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "a.ply:13: a face names vertex 3"},
+          {"a.ply", text + "0 0 0\n1 0 0\n0 1 0\n3 0", "the file ends too early"},
+          {"a.ply", binary + std::string(36, '\0') + "\3" + std::string(6, '\0'), "the file ends too early"},
+          {"a.ply", ply("binary_little_endian", "1000000000") + std::string(60, '\0'),
+           "a.ply:10: the header announces 1000000000 of face"},
+          {"a.ply", text + "0 0 0\n1 0 0\n", "a.ply:10: the header announces 3 of vertex"},
+          {"a.ply", "", "a.ply"},
+          {"a.png", "\x89PNG\r\n", "a.png"}};
+}
+
+TEST_F(AssetPrograms, ABrokenFileIsABadSceneThatNamesItsPlace) {
+  start_master({"--threads", "0"});
+  write("old.exr", "old");
+  for (const auto& [name, content, place] : broken_files()) {
+    write(name, content);
+    const std::string use =
+        name == "a.png" ? "sphere{}:texture(picture{ file = 'a.png' })" : "mesh{ file = '" + name + "' }";
+    write("broken.lua", "return scene{\n  root = " + use + " }\n");
+    for (const char* command : {"render", "submit"}) {
+      const ProgramResult result =
+          rayfarm({command, (folder / "broken.lua").string(), "-o", (folder / "old.exr").string()});
+      EXPECT_EQ(result.exit_code, 2) << command << " " << place;
+      EXPECT_NE(result.err.find("broken.lua:2"), std::string::npos) << result.err;
+      EXPECT_NE(result.err.find(place), std::string::npos) << place << " in: " << result.err;
+      EXPECT_LT(result.err.size(), 400u) << result.err;
+      EXPECT_EQ(content_of(folder / "old.exr"), "old");
+    }
+  }
+  EXPECT_TRUE(ask("/api/v1/jobs").at("jobs").empty());
 }
 
 }  // namespace

@@ -125,6 +125,20 @@ TEST_F(Frames, BecomeAVideoByFfmpeg) {
   EXPECT_NE(none.err.find("needs ffmpeg"), std::string::npos) << none.err;
 }
 
+/// What the real one makes of it, seen by its companion.
+TEST_F(Frames, AreAsManyInTheVideoThatFfmpegMakes) {
+  for (const auto& [file, rate] : {std::pair{"turn.mp4", "5/1"}, {"turn.webm", "5/1"}}) {
+    const ProgramResult made = render("0-8:2", "a.#.png", {"--video", folder / file, "--size", "161x91"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const ProgramResult seen =
+        run_program({"/usr/bin/ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                     "stream=nb_read_frames,r_frame_rate,width,height", "-of", "default=noprint_wrappers=1",
+                     folder / file});
+    ASSERT_EQ(seen.exit_code, 0) << seen.err << " (apt install ffmpeg)";
+    EXPECT_EQ(seen.out, std::string("width=162\nheight=92\nr_frame_rate=") + rate + "\nnb_read_frames=5\n");
+  }
+}
+
 // By a farm. -----------------------------------------------------------------------------------------------
 
 class FarmFrames : public Frames {
