@@ -31,7 +31,8 @@
 
 namespace rayfarm {
 
-constexpr std::uint16_t protocol_version = 2;
+/// Raised whenever the bytes of a message change their meaning; a peer of another number is refused.
+constexpr std::uint16_t protocol_version = 3;
 constexpr std::uint16_t default_farm_port = 5411;
 constexpr auto heartbeat_interval = std::chrono::milliseconds(500);
 constexpr auto peer_patience = std::chrono::seconds(2);       // four missed heartbeats

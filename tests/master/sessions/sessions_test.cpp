@@ -62,7 +62,7 @@ TEST(Sessions, RefuseAnotherProtocolAndSayWhatToDo) {
   hello.protocol = protocol_version + 1;
   peer.send(hello);
   EXPECT_EQ(peer.receive_a<Refused>().reason,
-            "rayfarm 0.1.0 speaks protocol 3, this master (0.1.0) protocol 2: install the same version on "
+            "rayfarm 0.1.0 speaks protocol 4, this master (0.1.0) protocol 3: install the same version on "
             "both PCs");
   peer.wait_for_end();
 }
