@@ -124,14 +124,15 @@ std::vector<Quad> sign_changes(const Quartic& f, int degree, Quad low, Quad high
   ends.insert(ends.begin(), low), ends.push_back(high);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     Quad a = ends[i], b = ends[i + 1], x = (a + b) / 2;
+    const Quad enough = (high - low) * Quad(1e-28);  // a step of Newton's method leaves less
     const bool negative = value(f, degree, a) < 0;
     if (negative == (value(f, degree, b) < 0)) continue;
-    for (int step = 0; step < 200 && b - a > (high - low) * Quad(1e-32); ++step) {
+    for (int step = 0; step < 200 && b - a > enough; ++step) {
       const Quad fx = value(f, degree, x), slope = value(derivative, degree - 1, x);
       ((fx < 0) == negative ? a : b) = x;
       const Quad newton = slope != 0 ? x - fx / slope : a;
       const Quad next = newton > a && newton < b && step % 4 != 3 ? newton : (a + b) / 2;
-      if (fabs(next - x) <= (high - low) * Quad(1e-33)) break;
+      if (fabs(next - x) <= enough) break;
       x = next;
     }
     found.push_back(x);

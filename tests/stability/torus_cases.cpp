@@ -151,7 +151,7 @@ RunBatch lost_from_surface() {
 
 std::vector<Case> torus_cases() {
   const std::vector<double> distances{3, 10, 1e2, 1e3, 1e4, 1e5, 1e6}, digits{2, 4, 6, 8, 10, 12, 14};
-  const CellSize size{2'000, 100'000'000, 500};
+  const CellSize size{10'000, 100'000'000, 500}, special_size{4'000, 100'000'000, 500};
   return {{"S8 torus",
            "tori, broad and grazing",
            "distance / size",
@@ -169,13 +169,13 @@ std::vector<Case> torus_cases() {
             {"Ferrari, shifted", "double", wrong(special, found_by_shifted_ferrari<Shot>), {}},
             {"Sturm, shifted", "double", wrong(special, found_by_sturm<Shot>), {}},
             {"ours", "double", wrong(special, found_by_ours), 1e-6}},
-           size},
+           special_size},
           {"S9 torus, from its surface",
            "rays that start on tori",
            "one",
            {1},
            {{"ours", "double", lost_from_surface(), 0.0}},
-           size}};
+           special_size}};
 }
 
 }  // namespace rayfarm::stability
