@@ -10,6 +10,7 @@
 #include "master/diagnostics/map.h"
 #include "master/script/script.h"
 #include "tests/support/random_scene.h"
+#include "tests/support/surfaces.h"
 
 namespace rayfarm {
 namespace {
@@ -69,25 +70,36 @@ class DepthOracle {
     return seen;
   }
 
-  Crossings along(std::uint32_t leaf, double x, double y) const {
-    return crossings_ahead(world_.leaves[leaf], leaf, RayQuery(*camera_.ray(x, y)));
+  /// Where the line passes the leaf's surface, ascending.
+  std::vector<double> along(std::uint32_t leaf, double x, double y) const {
+    const Leaf& solid = world_.leaves[leaf];
+    const RayQuery ray(*camera_.ray(x, y));
+    std::vector<double> depths;
+    if (solid.facets) {
+      for (const FacetCrossing& c : crossings_of_line(*solid.facets, to_local(solid, ray)))
+        if (c.t > 0) depths.push_back(c.t);
+      std::sort(depths.begin(), depths.end());
+      return depths;
+    }
+    const Crossings all = crossings_ahead(world_.leaves[leaf], leaf, ray);
+    for (int i = 0; i < all.count; ++i) depths.push_back(all.at[static_cast<std::size_t>(i)].t);
+    return depths;
   }
   int crossing_at_depth(std::uint32_t leaf, double x, double y, double depth) const {
-    const Crossings all = along(leaf, x, y);
-    int nearest = 0;
-    const auto off = [&](int i) { return std::fabs(all.at[static_cast<std::size_t>(i)].t - depth); };
-    for (int i = 1; i < all.count; ++i)
-      if (off(i) < off(nearest)) nearest = i;
-    return nearest;
+    const std::vector<double> all = along(leaf, x, y);
+    const auto nearest = std::min_element(all.begin(), all.end(), [&](double a, double b) {
+      return std::fabs(a - depth) < std::fabs(b - depth);
+    });
+    return static_cast<int>(nearest - all.begin());
   }
 
   /// Bisection: the crossing's depth changes from below to above between the two rays; without a jump?
   bool is_between(Seen near, Seen far, double depth) const {
     for (int halvings = 0; halvings < 60; ++halvings) {
       Seen middle{(near.x + far.x) / 2, (near.y + far.y) / 2, near.leaf, near.crossing, 0};
-      const Crossings all = along(middle.leaf, middle.x, middle.y);
-      if (middle.crossing >= all.count) return false;
-      middle.depth = all.at[static_cast<std::size_t>(middle.crossing)].t;
+      const std::vector<double> all = along(middle.leaf, middle.x, middle.y);
+      if (static_cast<std::size_t>(middle.crossing) >= all.size()) return false;
+      middle.depth = all[static_cast<std::size_t>(middle.crossing)];
       if (std::fabs(middle.depth - depth) <= tolerance * depth) return true;
       (middle.depth < depth ? near : far) = middle;
     }
