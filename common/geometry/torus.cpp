@@ -127,20 +127,33 @@ struct CriticalPoints {
   T u[3];
 };
 
-/// The positive zero of x^3 + p x - q, q > 0, of largest size: Newton's steps from above it, which never pass it.
+/// Somewhere near the positive zero of x^3 + p x - q, q > 0: where there are three, within 2^-13 of it.
+template <class T>
+T near_outer_zero(T p, T q) {
+  using std::sqrt;
+  const T top = T(2);  // p and q are at most about 2
+  if (!(p < T(0))) return p * top > q ? q / p : top;
+  const T h = sqrt(-p / T(3)), fold = T(2) * h * h * h;
+  if (q > T(8) * fold) return top;
+  const T k = q / fold;
+  if (k > T(1)) return least(h * (T(2) + (k - T(1)) * T(2.0 / 9)), top);
+  // 2 cos(acos(k) / 3), interpolated.
+  return h * (T(1.7321326590663837) +
+              k * (T(0.3306607004416917) + k * (T(-0.0813823948457791) + k * T(0.018639367794966707))));
+}
+
+/// The positive zero of x^3 + p x - q, q > 0, of largest size, by Halley's steps.
 template <class T>
 T outer_zero(T p, T q) {
-  using std::sqrt;
-  // Newton's step squares what is left, and once more f does, which is stationary there.
-  constexpr double enough = unit_roundoff_of < T >> 0x1p-60 ? 0x1p-14 : 0x1p-27;
-  const T top = T(2);  // p and q are at most about 2
-  T x = p < T(0) ? T(2) * sqrt(-p / T(3)) : p * top > q ? q / p : top;
+  using std::fabs;
+  // A step cubes what is left, and f, which is stationary there, squares that.
+  constexpr double enough = unit_roundoff_of < T >> 0x1p-60 ? 0x1p-10 : 0x1p-18;
+  T x = near_outer_zero(p, q);
   for (int i = 0; i < 100; ++i) {
-    const T slope = T(3) * x * x + p;
-    const T next = slope > T(0) ? least(x - ((x * x + p) * x - q) / slope, top) : top;
-    const bool is_close = i > 0 && x - next <= T(enough) * x;
-    x = next;
-    if (is_close) break;
+    const T g = (x * x + p) * x - q, slope = T(3) * x * x + p;
+    const T step = g * slope / (slope * slope - T(3) * x * g);
+    x = x - step;
+    if (fabs(step) <= T(enough) * x) break;
   }
   return x;
 }
@@ -176,10 +189,16 @@ T first_guess(const TorusLine<T>& l, T p, const Sample<T>& inside, T outside) {
   const T sum = inside.rho + l.R, lemon = (sum - l.r) * (sum + l.r) + square(l.foot.z + l.along.z * inside.u);
   const T deep = l.R >= l.r ? -inside.f * lemon : -inside.f;
   const T s = inside.u, A = T(6) * s * s + T(2) * p, B = outside > s ? T(4) * s : T(-4) * s;
-  T v = outside > s ? outside - s : s - outside;
-  for (int i = 0; i < 2; ++i) {
-    const T rise = i == 0 ? A : A + (B + v) * v;
-    if (rise * v * v > deep) v = sqrt(deep / rise);
+  const T limit = outside > s ? outside - s : s - outside;
+  T v = T(0.9) * limit;
+  if (A * v * v > deep) v = sqrt(deep / A);
+  for (int i = 0; i < 5; ++i) {  // Halley's, which cube what is left
+    const T g = (A + (B + v) * v) * v * v - deep, slope = (T(2) * A + (T(3) * B + T(4) * v) * v) * v;
+    const T next = v - g * slope / (slope * slope - g * (A + (T(3) * B + T(6) * v) * v));
+    if (!(next > T(0) && next < limit)) break;
+    const bool is_close = fabs(next - v) <= T(0x1p-8) * v;
+    v = next;
+    if (is_close) break;
   }
   return outside > s ? s + v : s - v;
 }
