@@ -8,6 +8,7 @@
 #pragma once
 #include <array>
 #include <cassert>
+#include <cstdint>
 
 #include "common/math/double_double.h"
 #include "common/math/number.h"
@@ -34,11 +35,13 @@ struct Interval {
   bool wants_digits = false;  // rounding decided a side
   bool is_certain = false;    // the line passes through the solid, although its bounds overlap
 
-  /// Whether it is empty, or on which side of an end the origin lies.
+  /// Whether it is empty, or on which side of an end the origin lies, when that matters: not when it is empty or behind
+  /// for certain.
   bool is_in_doubt() const {
     const auto at_origin = [](const Bounded<T>& end) { return end.lo <= T(0) && end.hi > T(0); };
-    return wants_digits || (enter.lo <= leave.hi && leave.lo <= enter.hi) || at_origin(enter) ||
-           at_origin(leave);
+    if (wants_digits) return true;
+    if (enter.lo > leave.hi || leave.hi <= T(0)) return false;
+    return leave.lo <= enter.hi || at_origin(enter) || at_origin(leave);
   }
 };
 
@@ -70,6 +73,28 @@ inline Interval<double> rounded(const Interval<DoubleDouble>& i) {
 }
 
 inline Interval<double> rounded(const Interval<double>& i) { return i; }
+
+/// Where a line is inside a convex solid, at a glance: what interval_of() says, to the bit, where its formulas tell
+/// without their bounds. Those are all less than `blur` then, and so is no distance of two ends or of an end and the
+/// ray's origin.
+struct Glance {
+  enum class Verdict : std::uint8_t { unsure, misses, passes };
+  Verdict verdict = Verdict::unsure;
+  double enter = 0, leave = 0, blur = 0;
+
+  static Glance missing() { return {Verdict::misses}; }
+  static Glance passing(double enter, double leave, double blur) {
+    return {Verdict::passes, enter, leave, blur};
+  }
+};
+
+/// Of a glance that tells nothing about the ray's origin yet.
+[[gnu::always_inline]] inline Glance ahead(const Glance& g) {
+  if (g.verdict != Glance::Verdict::passes) return g;
+  if (g.leave < -g.blur) return Glance::missing();
+  const bool is_sure = g.leave - g.enter > 2 * g.blur && g.leave > g.blur && std::fabs(g.enter) > g.blur;
+  return is_sure ? g : Glance{};
+}
 
 inline Crossing crossing_at(const Bounded<double>& b) { return {b.t, greatest(b.t - b.lo, b.hi - b.t)}; }
 

@@ -43,11 +43,13 @@ struct Boundary {
 struct CsgWorkspace {
   static constexpr bool counts_tests = false;
   struct Event {
-    double lo, hi, t, error;
+    double t, error;
     std::uint32_t item, part;
+    double lo() const { return t - error; }
+    double hi() const { return t + error; }
   };
   std::vector<std::int32_t> counts;         // per item: how much of it is inside
-  std::vector<std::int32_t> counts_before;  // at the start of an event with several leaves
+  std::vector<std::int32_t> counts_before;  // before a boundary that several leaves make
   std::vector<Event> events;
   FacetPath path;
 };
@@ -91,11 +93,27 @@ inline bool is_inside(const CsgItem& item, std::int32_t count) {
   return false;
 }
 
+/// How leaves are looked at: for crossings with their bounds, or at a glance where that tells enough.
+struct Closely {};
+struct AtAGlance {};
+
 /// Finds the crossings of all leaves ahead of the ray into workspace.events (by lo), and every item's side at
 /// the origin into workspace.counts. Returns the object's side there.
 template <class Workspace>  // a CsgWorkspace
 bool gather(std::span<const CsgItem> items, std::span<const Leaf> leaves, const RayQuery& ray, double t_max,
             Workspace& workspace);
+
+/// An object's side at the ray's origin and its first boundary, if any.
+struct ObjectStart {
+  bool inside = false;
+  bool has_boundary = false;
+  Boundary first;
+};
+
+/// What gather() and next_boundary() find first, its leaves seen at a glance where that can do: to the bit the same but
+/// for the boundary's error, which may be larger.
+ObjectStart start_at_a_glance(std::span<const CsgItem> items, std::span<const Leaf> leaves,
+                              const RayQuery& ray, double t_max, CsgWorkspace& workspace);
 
 /// Goes on to the next boundary of a gathered object, from event number `next` on; false when there is none
 /// left.
@@ -115,23 +133,33 @@ struct FillingChange {
 bool next_filling(std::span<const CsgItem> items, CsgWorkspace& workspace, std::size_t& next,
                   FillingChange& change);
 
+/// Whether the ray starts on the leaf's surface.
+inline bool is_left(const Leaf& leaf, const RayQuery& q) { return leaf.surface == q.ray.left_surface; }
+
+/// A leaf at a glance, also when the ray starts on it: a convex one that it leaves outward is not met again.
+[[gnu::always_inline]] inline Glance glance_ahead(const Leaf& leaf, const RayQuery& q) {
+  if (!is_left(leaf, q)) return glance(leaf, q);
+  if (q.ray.into_leaf) return exit_at_a_glance(leaf, q);
+  return is_convex(leaf.solid) ? Glance::missing() : Glance{};
+}
+
 /// The crossings of one leaf ahead of the ray, also when the ray starts on it.
-inline Crossings crossings_ahead(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
-  if (number == q.ray.left_leaf) return crossings_from_surface(leaf, to_local(leaf, q), q.ray.into_leaf);
+inline Crossings crossings_ahead(const Leaf& leaf, const RayQuery& q) {
+  if (is_left(leaf, q)) return crossings_from_surface(leaf, to_local(leaf, q), q.ray.into_leaf);
   return crossings(leaf, q);
 }
 
 /// What a leaf with facets must know of the ray's start.
-inline Departure departure_from(std::uint32_t leaf, const RayQuery& q) {
-  if (leaf != q.ray.left_leaf) return {};
+inline Departure departure_from(const Leaf& leaf, const RayQuery& q) {
+  if (!is_left(leaf, q)) return {};
   return {q.ray.left_part, q.ray.into_leaf};
 }
 
 /// The same for a leaf with facets. A sheet has no inside, so it has none.
-inline void find_path_ahead(const Leaf& leaf, std::uint32_t number, const RayQuery& q, FacetPath& path) {
+inline void find_path_ahead(const Leaf& leaf, const RayQuery& q, FacetPath& path) {
   path.starts_inside = false;
   path.crossings.clear();
-  if (!leaf.is_sheet()) find_path(*leaf.facets, to_local(leaf, q), departure_from(number, q), path);
+  if (!leaf.is_sheet()) find_path(*leaf.facets, to_local(leaf, q), departure_from(leaf, q), path);
 }
 
 }  // namespace rayfarm

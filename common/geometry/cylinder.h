@@ -44,6 +44,32 @@ Interval<T> interval_of(const Cylinder& c, const LocalRay<T>& r) {
   return intersection(tube_interval(r), slab_interval(r, 2, T(c.z_min), T(c.z_max)));
 }
 
+/// A line that is not nearly along the axis, by a factor of 2^6: so much larger than the sphere's is the tube's blur. z
+/// is off by less than 2^-23 besides what t is off by.
+[[gnu::always_inline]] inline Glance glance_at(const Cylinder& c, const LocalRay<double>& r) {
+  const LocalRay<double> flat = across_axis(r);
+  const double o = r.origin.z, d = r.direction.z;
+  if (!(dot(flat.direction, flat.direction) > 0x1p-12 * d * d)) return {};
+  const Glance tube = glance_at(Sphere{}, flat);
+  if (tube.verdict != Glance::Verdict::passes) return tube;
+  const bool is_level = d == 0;
+  if (!is_level && !(std::fabs(d) > r.spread)) return {};
+
+  double blur = tube.blur * 0x1p6;
+  const double off = 2 * (blur * std::fabs(d) + 0x1p-22), low = c.z_min - off, high = c.z_max + off;
+  const double z_enter = o + tube.enter * d, z_leave = o + tube.leave * d;
+  if ((z_enter < low && z_leave < low) || (z_enter > high && z_leave > high)) return Glance::missing();
+  const auto is_between = [&](double z) { return z > c.z_min + off && z < c.z_max - off; };
+  const bool enters_side = is_between(z_enter), leaves_side = is_between(z_leave);
+  if (enters_side && leaves_side) return Glance::passing(tube.enter, tube.leave, blur);
+  const auto is_beyond = [&](double z) { return z < low || z > high; };
+  if (!(enters_side || is_beyond(z_enter)) || !(leaves_side || is_beyond(z_leave))) return {};
+  blur = greatest(blur, 0x1p-22 / std::fabs(d));
+  const double near = d > 0 ? c.z_min : c.z_max, far = d > 0 ? c.z_max : c.z_min;
+  return Glance::passing(enters_side ? tube.enter : (near - o) / d, leaves_side ? tube.leave : (far - o) / d,
+                         blur);
+}
+
 /// Whether a point of the surface lies on a cap rather than on the side: nearer to a cap's plane than to the
 /// tube.
 inline bool is_on_cap(const Cylinder& c, const Vec3d& p) {

@@ -24,11 +24,47 @@ void toggle(std::span<const CsgItem> items, std::vector<std::int32_t>& counts, s
 template <class Workspace>
 void gather_facets(std::span<const CsgItem> items, std::uint32_t item, const Leaf& leaf, const RayQuery& q,
                    Workspace& ws) {
-  find_path_ahead(leaf, items[item].leaf, q, ws.path);
+  find_path_ahead(leaf, q, ws.path);
   if constexpr (Workspace::counts_tests) ws.path_tested();
   if (ws.path.starts_inside) toggle(items, ws.counts, item);
-  for (const FacetCrossing& c : ws.path.crossings)
-    ws.events.push_back({c.lo(), c.hi(), c.t, c.error, item, c.part});
+  for (const FacetCrossing& c : ws.path.crossings) ws.events.push_back({c.t, c.error, item, c.part});
+}
+
+/// The crossings of a leaf into the events.
+template <class Workspace>
+void gather_leaf(std::span<const CsgItem> items, std::uint32_t item, std::span<const Leaf> leaves,
+                 const RayQuery& q, Workspace& ws) {
+  const Leaf& leaf = leaves[items[item].leaf];
+  if (leaf.facets) return gather_facets(items, item, leaf, q, ws);
+  const Crossings c = crossings_ahead(leaf, q);
+  if constexpr (Workspace::counts_tests) ws.leaf_tested(c);
+  if (c.starts_inside) toggle(items, ws.counts, item);
+  for (int k = 0; k < c.count; ++k) {
+    const Crossing& at = c.at[static_cast<std::size_t>(k)];
+    ws.events.push_back({at.t, at.error, item, no_part});
+  }
+}
+
+/// Their order along the ray.
+inline bool comes_before(const CsgWorkspace::Event& a, const CsgWorkspace::Event& b) {
+  return a.lo() != b.lo() ? a.lo() < b.lo() : a.item < b.item;
+}
+
+/// Calls visit(item) for each leaf whose box the ray meets.
+template <class Workspace, class Visit>
+void visit_leaves(std::span<const CsgItem> items, const RayQuery& q, double t_max, Workspace& ws,
+                  Visit&& visit) {
+  for (std::uint32_t i = 0; i < items.size();) {
+    const CsgItem& item = items[i];
+    if constexpr (Workspace::counts_tests) ++ws.tests.boxes;
+    const BoxSpan span = span_in(item.box, q, t_max);
+    if (span.entry > span.exit) {
+      i = item.next;
+      continue;
+    }
+    if (item.leaf != no_leaf) visit(i);
+    ++i;
+  }
 }
 
 }  // namespace
@@ -38,29 +74,8 @@ bool gather(std::span<const CsgItem> items, std::span<const Leaf> leaves, const 
             Workspace& ws) {
   ws.counts.assign(items.size(), 0);
   ws.events.clear();
-  for (std::uint32_t i = 0; i < items.size();) {
-    const CsgItem& item = items[i];
-    if constexpr (Workspace::counts_tests) ++ws.tests.boxes;
-    const BoxSpan span = span_in(item.box, q, t_max);
-    if (span.entry > span.exit) {
-      i = item.next;
-      continue;
-    }
-    if (item.leaf != no_leaf && leaves[item.leaf].facets) {
-      gather_facets(items, i, leaves[item.leaf], q, ws);
-    } else if (item.leaf != no_leaf) {
-      const Crossings c = crossings_ahead(leaves[item.leaf], item.leaf, q);
-      if constexpr (Workspace::counts_tests) ws.leaf_tested(c);
-      if (c.starts_inside) toggle(items, ws.counts, i);
-      for (int k = 0; k < c.count; ++k) {
-        const Crossing& at = c.at[static_cast<std::size_t>(k)];
-        ws.events.push_back({at.lo(), at.hi(), at.t, at.error, i, no_part});
-      }
-    }
-    ++i;
-  }
-  std::sort(ws.events.begin(), ws.events.end(),
-            [](const auto& a, const auto& b) { return a.lo != b.lo ? a.lo < b.lo : a.item < b.item; });
+  visit_leaves(items, q, t_max, ws, [&](std::uint32_t item) { gather_leaf(items, item, leaves, q, ws); });
+  std::sort(ws.events.begin(), ws.events.end(), comes_before);
   return is_inside(items[0], ws.counts[0]);
 }
 

@@ -1,5 +1,9 @@
 #include "common/geometry/leaf.h"
 
+#include <bit>
+
+#include "common/math/hash.h"
+
 namespace rayfarm {
 namespace {
 
@@ -133,6 +137,21 @@ double largest(const Vec3d& of_axes, Vec3d& share) {
   return most;
 }
 
+/// Up to which RayQuery::size a ray is off by less than 2^-30 in local space, at its origin and wherever it passes the
+/// solid, its direction by so much of its length. In the worst case the direction is that which the map shortens most.
+double sure_size(const Leaf& leaf, const BoundedAffine& world_from_local) {
+  constexpr double most = 0x1p-30;
+  const glm::dmat3& m = world_from_local.map.linear;
+  // 1 / |d| is at most this for a world direction of size 1, with room for rounding.
+  const double shortening = 2 * greatest(row_sum(m, 0), greatest(row_sum(m, 1), row_sum(m, 2)));
+  const double reach = max_abs(leaf.offset) + 1;
+  // What the origin's local size brings: its rounding in the closest approach, and the direction's over so long a way.
+  const double per_reach = 6 * unit_roundoff + 2 * leaf.error_per_size * shortening;
+  const double per_size = leaf.error_per_size + leaf.stretch * (0x1p-46 + per_reach);
+  const double rest = most - leaf.origin_error - reach * per_reach;
+  return leaf.spread_per_size * shortening < most ? rest / per_size : -1;
+}
+
 }  // namespace
 
 Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local, const Facets* facets) {
@@ -173,7 +192,19 @@ Leaf make_leaf(const Solid& solid, const BoundedAffine& world_from_local, const 
   leaf.error_per_size = largest(per_size, leaf.share);
   leaf.spread_per_size = largest(spread, leaf.share);
   leaf.stretch = largest(stretch, leaf.share);
+  leaf.sure_size = static_cast<float>(least(sure_size(leaf, world_from_local) * 0.99, 1e30));
   return leaf;
+}
+
+bool are_twins(const Leaf& a, const Leaf& b) {
+  return a.solid == b.solid && std::equal(a.row, a.row + 3, b.row) && a.offset == b.offset;
+}
+
+std::uint64_t twin_hash(const Leaf& leaf) {
+  std::uint64_t hash = leaf.solid.index();
+  for (const Vec3d& v : {leaf.row[0], leaf.row[1], leaf.row[2], leaf.offset})
+    for (int i = 0; i < 3; ++i) hash = keyed(hash, std::bit_cast<std::uint64_t>(v[i] + 0.0));  // -0 as +0
+  return hash;
 }
 
 LocalRay<DoubleDouble> to_local_precisely(const Leaf& leaf, const RayQuery& q) {
@@ -300,18 +331,21 @@ FacetPoint facet_at(const Leaf& leaf, const LocalRay<double>& ray, const FacetCr
   return point_at(*leaf.facets, ray, crossing, mesh && mesh->smooth);
 }
 
-WorldPoint to_world(const BoundedAffine& world_from_local, const Vec3d& local) {
-  const Affine& m = world_from_local.map;
-  const glm::dvec3 p{local.x, local.y, local.z}, size = glm::abs(p);
+Placement make_placement(const BoundedAffine& m) {
   // The point is within a few ulp of the surface in local space; then the map's error and its rounding.
-  const glm::dvec3 error = (magnitude(m.linear) * gamma_bound(8) + world_from_local.linear_error) * size +
-                           world_from_local.offset_error + glm::abs(m.offset) * gamma_bound(4);
-  return {vec(point(m, p)), max_abs(vec(error))};
+  return {m.map, magnitude(m.map.linear) * gamma_bound(8) + m.linear_error,
+          m.offset_error + glm::abs(m.map.offset) * gamma_bound(4)};
 }
 
-WorldPoint to_world(const BoundedAffine& world_from_local, const FacetPoint& local) {
-  WorldPoint found = to_world(world_from_local, local.surface.point);
-  const glm::dmat3 size = magnitude(world_from_local.map.linear) + world_from_local.linear_error;
+WorldPoint to_world(const Placement& placement, const Vec3d& local) {
+  const glm::dvec3 p{local.x, local.y, local.z};
+  const glm::dvec3 error = placement.error_per_size * glm::abs(p) + placement.error;
+  return {vec(point(placement.map, p)), max_abs(vec(error))};
+}
+
+WorldPoint to_world(const Placement& placement, const FacetPoint& local) {
+  WorldPoint found = to_world(placement, local.surface.point);
+  const glm::dmat3 size = magnitude(placement.map.linear) + placement.error_per_size;
   found.error += local.error * greatest(row_sum(size, 0), greatest(row_sum(size, 1), row_sum(size, 2)));
   return found;
 }

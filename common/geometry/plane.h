@@ -10,6 +10,16 @@ Interval<T> interval_of(const Plane&, const LocalRay<T>& r) {
   return slab_interval(r, 2, T(-infinity), T(0));
 }
 
+[[gnu::always_inline]] inline Glance glance_at(const Plane&, const LocalRay<double>& r) {
+  const double o = r.origin.z, d = r.direction.z, off = r.origin_error, turn = r.direction_error;
+  if (!(std::fabs(d) > r.spread)) return {};
+  if (std::fabs(o) > off && (o > 0) == (d > 0))  // away from the face
+    return o > 0 ? Glance::missing() : Glance::passing(-infinity, infinity, 0);
+  const double t = -o / d, far = std::fabs(t);
+  const double blur = (off + far * turn) * (1 / (std::fabs(d) - turn)) + 5 * unit_roundoff * far;
+  return d > 0 ? Glance::passing(-infinity, t, blur) : Glance::passing(t, infinity, blur);
+}
+
 /// Inward there is no other face.
 inline Bounded<double> exit_from_surface(const Plane&, const LocalRay<double>&) {
   return bounded(infinity, 0.0);

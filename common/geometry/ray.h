@@ -32,12 +32,12 @@ inline bool contradicts(Side side, bool entering) {
 /// by identity in Cycles (Blender D6250), the coincident flag of OpenMC.
 struct Ray {
   Vec3d origin{}, direction{};
-  double origin_error = 0;  // each coordinate is within this of the exact point
-  std::uint32_t left_leaf = no_leaf;
-  bool into_leaf = false;  // the ray goes to the inner side of left_leaf
+  double origin_error = 0;               // each coordinate is within this of the exact point
+  std::uint32_t left_surface = no_leaf;  // Leaf::surface
+  bool into_leaf = false;                // the ray goes to the inner side of it
   Side side = Side::unknown;
   std::uint32_t medium = unknown_medium;  // into which the ray was sent
-  std::uint32_t left_part = no_part;      // of left_leaf: the triangle or patch, where there are such
+  std::uint32_t left_part = no_part;      // of that leaf: the triangle or patch, where there are such
 };
 
 inline bool is_sent_inside(const Ray& ray) { return ray.side == Side::inside || ray.medium < empty_space; }
@@ -48,11 +48,13 @@ struct RayQuery {
       : ray(r),
         inverse{1 / (r.direction.x + 0.0), 1 / (r.direction.y + 0.0), 1 / (r.direction.z + 0.0)},  // -0 as +0
         origin_size(max_abs(r.origin)),
-        direction_size(max_abs(r.direction)) {}
+        direction_size(max_abs(r.direction)),
+        size(greatest(origin_size, r.origin_error * 0x1p46)) {}
 
   Ray ray;
   Vec3d inverse;                       // of the direction; infinite where it is 0
   double origin_size, direction_size;  // largest component
+  double size;                         // of the origin; its error is at most 2^-46 of it
 };
 
 /// A ray in a leaf's local space, with bounds on each component's error, rounding and the transform's uncertainty

@@ -120,7 +120,7 @@ TextureCoordinates texture_of(const Leaf& leaf, const FacetPoint& local) {
 Hit hit_at(const World::Parts& w, const RayQuery& q, const Boundary& b) {
   const Leaf& leaf = w.leaves[b.leaf];
   const FacetPoint local = local_surface(leaf, q, {b.t, b.error, b.part, b.leaf_entering});
-  const BoundedAffine& placement = w.placements[b.leaf];
+  const Placement& placement = w.placements[b.leaf];
   const WorldPoint place =
       leaf.facets ? to_world(placement, local) : to_world(placement, local.surface.point);
   const Vec3d outward = normal_to_world(leaf, local.surface.normal);
@@ -137,7 +137,7 @@ Hit hit_at(const World::Parts& w, const RayQuery& q, const Boundary& b) {
       apply(w, w.textures[surface.first_texture + i], at, hit.color);
   }
   hit.material = &w.materials[surface.material];
-  hit.leaf = b.leaf;
+  hit.leaf = b.leaf, hit.surface = leaf.surface;
   hit.leaf_entering = b.leaf_entering, hit.entering = b.entering;
   hit.inner = b.inner, hit.outer = b.outer;
   hit.index = b.inner == unknown_medium ? hit.material->index : index_of(w, b.inner) / index_of(w, b.outer);
@@ -162,7 +162,7 @@ Ray ray_from(const Hit& hit, const Vec3d& direction, bool outside) {
   return {hit.point,
           direction,
           hit.point_error,
-          hit.leaf,
+          hit.surface,
           outside != leaf_is_material,
           hit.inner != unknown_medium || hit.is_sheet ? Side::unknown
           : outside                                   ? Side::outside

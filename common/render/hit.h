@@ -6,7 +6,7 @@
 namespace rayfarm {
 
 struct Hit {
-  double t = 0, t_error = 0;  // along the ray that came
+  double t = 0, t_error = 0;  // along the ray that came; tight where World::Parts::asks_for_errors()
   Vec3d point{};
   double point_error = 0;  // of each coordinate
   Vec3d normal{};          // unit, out of the material, whichever way the ray came
@@ -14,6 +14,7 @@ struct Hit {
   const Material* material = nullptr;
   double index = 1;  // of refraction: the material's side over the other
   std::uint32_t leaf = 0;
+  std::uint32_t surface = 0;   // Leaf::surface
   bool leaf_entering = false;  // the ray goes into the leaf
   bool entering = false;       // the ray goes into the material: it came from outside
   std::uint32_t inner = unknown_medium, outer = unknown_medium;  // what fills both sides: nested media

@@ -9,18 +9,12 @@
 // there were no other.
 #pragma once
 #include <algorithm>
+#include <type_traits>
 
 #include "common/render/world_parts.h"
 
 namespace rayfarm {
 namespace {
-
-/// An object's side at the ray's origin and its first boundary, if any.
-struct ObjectStart {
-  bool inside = false;
-  bool has_boundary = false;
-  Boundary first;
-};
 
 ObjectStart starting(bool inside, const Bounded<double>& at, std::uint32_t leaf) {
   const Crossing c = crossing_at(at);
@@ -47,9 +41,23 @@ ObjectStart start_of_crossings(const Crossings& c, std::uint32_t leaf) {
 }
 
 ObjectStart start_of_leaf(const Leaf& leaf, std::uint32_t number, const RayQuery& q) {
-  if (number != q.ray.left_leaf)
+  if (!is_left(leaf, q))
     if (const auto interval = convex_interval(leaf, q)) return start_of_interval(*interval, number);
-  return start_of_crossings(crossings_ahead(leaf, number, q), number);
+  return start_of_crossings(crossings_ahead(leaf, q), number);
+}
+
+template <class Csg>
+ObjectStart start_of_tree(Closely, std::span<const CsgItem> items, const World::Parts& w, const RayQuery& q,
+                          double t_max, Csg& ws) {
+  ObjectStart start;
+  start.inside = gather(items, w.leaves, q, t_max, ws);
+  std::size_t next = 0;
+  start.has_boundary = next_boundary(items, ws, next, start.first);
+  return start;
+}
+inline ObjectStart start_of_tree(AtAGlance, std::span<const CsgItem> items, const World::Parts& w,
+                                 const RayQuery& q, double t_max, CsgWorkspace& ws) {
+  return start_at_a_glance(items, w.leaves, q, t_max, ws);
 }
 
 /// That of a leaf with facets, which the ray passes in one of its parts.
@@ -64,7 +72,7 @@ template <class Csg>
 ObjectStart start_of_facets(const Leaf& leaf, std::uint32_t number, const RayQuery& q, double t_max,
                             Csg& ws) {
   const LocalRay<double> local = to_local(leaf, q);
-  const Departure from = departure_from(number, q);
+  const Departure from = departure_from(leaf, q);
   Nearest nearest = nearest_crossing(*leaf.facets, local, from, t_max);
   // Inside there is a crossing ahead, however far; it tells the side.
   if (!nearest.crossing && nearest.is_sure && may_start_inside(*leaf.facets, local, from))
@@ -74,7 +82,7 @@ ObjectStart start_of_facets(const Leaf& leaf, std::uint32_t number, const RayQue
     const bool entering = nearest.crossing->entering;
     return {!entering && !leaf.is_sheet(), true, boundary_at(*nearest.crossing, number, entering)};
   }
-  find_path_ahead(leaf, number, q, ws.path);
+  find_path_ahead(leaf, q, ws.path);
   const bool inside = ws.path.starts_inside;
   const std::vector<FacetCrossing>& at = ws.path.crossings;
   for (std::size_t i = 0, last = 0; i < at.size(); i = last) {
@@ -85,19 +93,14 @@ ObjectStart start_of_facets(const Leaf& leaf, std::uint32_t number, const RayQue
   return {inside, false, {}};
 }
 
-template <class Csg>
-ObjectStart start_of(const World::Parts& w, const ObjectRef& ref, const RayQuery& q, double t_max,
+template <class Look, class Csg>
+ObjectStart start_of(Look look, const World::Parts& w, const ObjectRef& ref, const RayQuery& q, double t_max,
                      WorkspaceWith<Csg>& ws) {
   if constexpr (Csg::counts_tests)
-    if (ref.leaf != no_leaf) ws.csg.leaf_tested(crossings_ahead(w.leaves[ref.leaf], ref.leaf, q));
+    if (ref.leaf != no_leaf) ws.csg.leaf_tested(crossings_ahead(w.leaves[ref.leaf], q));
   if (ref.leaf != no_leaf) return start_of_leaf(w.leaves[ref.leaf], ref.leaf, q);
   if (ref.facets != no_leaf) return start_of_facets(w.leaves[ref.facets], ref.facets, q, t_max, ws.csg);
-  const std::span<const CsgItem> items = w.items_of(w.objects[ref.object]);
-  ObjectStart start;
-  start.inside = gather(items, w.leaves, q, t_max, ws.csg);
-  std::size_t next = 0;
-  start.has_boundary = next_boundary(items, ws.csg, next, start.first);
-  return start;
+  return start_of_tree(look, w.items_of(w.objects[ref.object]), w, q, t_max, ws.csg);
 }
 
 /// A visitor that counts the boxes on its way.
@@ -165,7 +168,7 @@ template <class Csg>
 std::optional<Boundary> blocker_in(const World::Parts& w, const ObjectRef& ref, const RayQuery& q,
                                    WorkspaceWith<Csg>& ws) {
   if (ref.facets != no_leaf) {  // all of it casts shadows, or none
-    const ObjectStart start = start_of(w, ref, q, 1.0, ws);
+    const ObjectStart start = start_of(Closely{}, w, ref, q, 1.0, ws);
     if (!start.has_boundary || start.first.t > 1 || !w.surfaces[ref.facets].casts_shadow) return std::nullopt;
     return start.first;
   }
@@ -177,41 +180,82 @@ std::optional<Boundary> blocker_in(const World::Parts& w, const ObjectRef& ref, 
   return std::nullopt;
 }
 
+/// Who counts tests has them made closely.
+template <class Csg>
+using FirstLook = std::conditional_t<Csg::counts_tests, Closely, AtAGlance>;
+
+/// The first of all objects' first boundaries, as far as they are known.
+template <class Look>
+struct FirstOfObjects {
+  bool starts_inside = false;  // an object; nothing else is known then
+  bool is_unsure = false;      // two that seem near want to be looked at closely
+  double t_max = infinity;     // the found one's far end
+  std::uint32_t object = 0;
+  std::optional<Boundary> boundary;
+
+  /// Whether the search goes on.
+  [[gnu::always_inline]] bool offer(const Boundary& b, std::uint32_t of_object) {
+    if (b.t - b.error > t_max) return true;
+    // Surfaces within each other's error are one; the object that comes first in the scene is shown.
+    const bool same = boundary && boundary->t - boundary->error <= b.t + b.error;
+    if (std::is_same_v<Look, AtAGlance> && same) {
+      is_unsure = true;
+      return false;
+    }
+    if (same && object < of_object) return true;
+    boundary = b, object = of_object;
+    t_max = b.t + b.error;
+    return true;
+  }
+};
+
+template <class Look, class Csg>
+void find_first(FirstOfObjects<Look>& first, const World::Parts& w, const RayQuery& q,
+                WorkspaceWith<Csg>& ws) {
+  visit_objects(w, q, first.t_max, ws, [&](const ObjectRef& ref) {
+    if constexpr (std::is_same_v<Look, AtAGlance>)
+      if (ref.leaf != no_leaf) {
+        const Glance g = glance_ahead(w.leaves[ref.leaf], q);
+        if (g.verdict == Glance::Verdict::misses) return true;
+        if (g.verdict == Glance::Verdict::passes) {
+          first.starts_inside = g.enter < 0;
+          return !first.starts_inside && first.offer({g.enter, g.blur, ref.leaf, true, true}, ref.object);
+        }
+      }
+    const ObjectStart start = start_of(Look{}, w, ref, q, first.t_max, ws);
+    first.starts_inside = start.inside;
+    if (start.inside || !start.has_boundary) return !start.inside;
+    return first.offer(start.first, ref.object);
+  });
+}
+
 }  // namespace
 
 template <class Csg>
 std::optional<Boundary> first_boundary(const World::Parts& w, const RayQuery& q, WorkspaceWith<Csg>& ws) {
   if (w.scene.nested_media) return first_change_of_medium(w, q, ws);
-  bool starts_inside = false, found = false;
-  Boundary best{};
-  std::uint32_t best_object = 0;
-  double t_max = infinity;
-  visit_objects(w, q, t_max, ws, [&](const ObjectRef& ref) {
-    const ObjectStart start = start_of(w, ref, q, t_max, ws);
-    if (start.inside) {
-      starts_inside = true;
-      return false;
-    }
-    if (!start.has_boundary) return true;
-    const Boundary& b = start.first;
-    // Surfaces within each other's error are one; the object that comes first in the scene is shown.
-    const bool same = found && b.t - b.error <= best.t + best.error && best.t - best.error <= b.t + b.error;
-    if (!found || (same ? ref.object < best_object : b.t < best.t)) {
-      found = true, best = b, best_object = ref.object;
-      t_max = b.t + b.error;
-    }
-    return true;
-  });
-  if (starts_inside) return first_of_union(w, q, ws);
-  if (!found) return std::nullopt;
-  return best;
+  if (!w.asks_for_errors()) {
+    FirstOfObjects<FirstLook<Csg>> first;
+    find_first(first, w, q, ws);
+    if (!first.is_unsure && !first.starts_inside) return first.boundary;
+    if (first.starts_inside) return first_of_union(w, q, ws);
+  }
+  FirstOfObjects<Closely> first;
+  find_first(first, w, q, ws);
+  return first.starts_inside ? first_of_union(w, q, ws) : first.boundary;
 }
 
 template <class Csg>
 bool is_blocked(const World::Parts& w, const RayQuery& q, WorkspaceWith<Csg>& ws) {
   bool blocked = false;
   visit_objects(w, q, 1.0, ws, [&](const ObjectRef& ref) {
-    const ObjectStart start = start_of(w, ref, q, 1.0, ws);
+    if constexpr (!Csg::counts_tests)
+      if (ref.leaf != no_leaf && w.all_cast_shadows) {
+        const Glance g = glance_ahead(w.leaves[ref.leaf], q);
+        if (g.verdict == Glance::Verdict::misses) return true;
+        if (g.verdict == Glance::Verdict::passes) return !(blocked = (g.enter < 0 ? g.leave : g.enter) <= 1);
+      }
+    const ObjectStart start = start_of(FirstLook<Csg>{}, w, ref, q, 1.0, ws);
     blocked = start.has_boundary && start.first.t <= 1;
     if (blocked && !w.all_cast_shadows) blocked = blocker_in(w, ref, q, ws).has_value();
     return !blocked;

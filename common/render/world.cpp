@@ -1,5 +1,7 @@
 #include "common/render/world.h"
 
+#include <unordered_map>
+
 #include "common/render/world_parts.h"
 
 namespace rayfarm {
@@ -121,7 +123,8 @@ class Builder {
 
   std::uint32_t add_leaf(const Leaf& leaf, const Inherited& inherited) {
     parts_.leaves.push_back(leaf);
-    parts_.placements.push_back(inherited.world_from_parent);
+    parts_.leaves.back().surface = surface_of(leaf);
+    parts_.placements.push_back(make_placement(inherited.world_from_parent));
     LeafSurface surface;
     surface.material = inherited.material;
     surface.color = inherited.color.value_or(vec(parts_.materials[inherited.material].color));
@@ -130,6 +133,17 @@ class Builder {
     parts_.all_cast_shadows = parts_.all_cast_shadows && surface.casts_shadow;
     parts_.surfaces.push_back(surface);
     return static_cast<std::uint32_t>(parts_.leaves.size() - 1);
+  }
+
+  /// The number of the first leaf like the last one, its own if there is none.
+  std::uint32_t surface_of(const Leaf& last) {
+    const std::uint64_t hash = twin_hash(last);
+    const auto [begin, end] = first_of_twins_.equal_range(hash);
+    for (auto it = begin; it != end; ++it)
+      if (are_twins(parts_.leaves[it->second], last)) return it->second;
+    const auto number = static_cast<std::uint32_t>(parts_.leaves.size() - 1);
+    first_of_twins_.emplace(hash, number);
+    return number;
   }
 
   /// What lies outside the box of what it is combined with cannot matter.
@@ -159,6 +173,7 @@ class Builder {
   }
 
   World::Parts& parts_;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> first_of_twins_;  // by twin_hash()
 };
 
 std::unique_ptr<const World::Parts> built(Scene scene) {

@@ -36,9 +36,9 @@ struct ObjectRef {
 struct World::Parts {
   Scene scene;
   std::vector<Leaf> leaves;
-  std::vector<BoundedAffine> placements;  // world_from_local, per leaf
-  std::vector<LeafSurface> surfaces;      // per leaf
-  std::vector<Material> materials;        // the scene's, then the default one
+  std::vector<Placement> placements;  // per leaf
+  std::vector<LeafSurface> surfaces;  // per leaf
+  std::vector<Material> materials;    // the scene's, then the default one
   std::vector<Texture> textures;
   std::vector<CsgItem> items;
   std::vector<WorldObject> objects;
@@ -47,6 +47,9 @@ struct World::Parts {
   Bvh bvh;
   bool all_cast_shadows = true;
   std::vector<GlowShell> glows;  // in the order of the tree
+
+  /// Whether how exact a hit is matters to more than what else is hit there.
+  bool asks_for_errors() const { return !glows.empty(); }
 
   std::span<const CsgItem> items_of(const WorldObject& object) const {
     return {items.data() + object.first_item, object.item_count};

@@ -61,15 +61,15 @@ struct LeafPath {
   std::vector<double> crossings;
 };
 
-LeafPath path_of(const Leaf& leaf, std::uint32_t number, const RayQuery& query) {
+LeafPath path_of(const Leaf& leaf, const RayQuery& query) {
   LeafPath path;
   if (leaf.facets) {
     FacetPath found;
-    find_path_ahead(leaf, number, query, found);
+    find_path_ahead(leaf, query, found);
     path.starts_inside = found.starts_inside;
     for (const FacetCrossing& c : found.crossings) path.crossings.push_back(c.t);
   } else {
-    const Crossings found = crossings_ahead(leaf, number, query);
+    const Crossings found = crossings_ahead(leaf, query);
     path.starts_inside = found.starts_inside;
     for (int i = 0; i < found.count; ++i) path.crossings.push_back(found.at[static_cast<std::size_t>(i)].t);
   }
@@ -83,7 +83,7 @@ CsgStory csg_story(const World& world, const Ray& ray) {
   const RayQuery query(ray);
   CsgStory story;
   for (std::uint32_t leaf = 0; leaf < parts.leaves.size(); ++leaf) {
-    const LeafPath path = path_of(parts.leaves[leaf], leaf, query);
+    const LeafPath path = path_of(parts.leaves[leaf], query);
     if (!path.starts_inside && path.crossings.empty()) continue;
     Walk walk(path.starts_inside);
     for (const double t : path.crossings) walk.cross(t);

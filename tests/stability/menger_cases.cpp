@@ -158,9 +158,9 @@ std::vector<double> our_boundaries(const World& world, const Ray& ray, CsgWorksp
 std::vector<double> boundaries_by_equality(const World& world, const Ray& ray, CsgWorkspace& ws) {
   const auto items = world.parts().items_of(world.parts().objects[0]);
   gather(items, world.parts().leaves, RayQuery(ray), infinity, ws);
-  for (CsgWorkspace::Event& e : ws.events) e.lo = e.hi = e.t, e.error = 0;
+  for (CsgWorkspace::Event& e : ws.events) e.error = 0;
   std::sort(ws.events.begin(), ws.events.end(),
-            [](const auto& a, const auto& b) { return a.lo != b.lo ? a.lo < b.lo : a.item < b.item; });
+            [](const auto& a, const auto& b) { return a.t != b.t ? a.t < b.t : a.item < b.item; });
   std::vector<double> at;
   Boundary b;
   for (std::size_t next = 0; next_boundary(items, ws, next, b);) at.push_back(b.t);

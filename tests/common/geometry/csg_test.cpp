@@ -83,6 +83,31 @@ TEST(Csg, ARayIsInsideAnObjectWhereItsPointsAre) {
   EXPECT_GT(checked, 5'000);
 }
 
+TEST(Csg, AGlanceFindsTheSameFirstBoundaryAsACloseLook) {
+  RandomRays random(13);
+  for (Scene (*make)(std::uint64_t) : {random_scene, random_snapped_scene})
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      const World world(make(seed));
+      CsgWorkspace close, glancing;
+      for (const WorldObject& object : world.parts().objects) {
+        const auto items = world.parts().items_of(object);
+        for (int i = 0; i < 50; ++i) {
+          const RayQuery q(random.towards_box(8, 2));
+          Boundary first;
+          std::size_t next = 0;
+          const ObjectStart start = start_at_a_glance(items, world.parts().leaves, q, infinity, glancing);
+          ASSERT_EQ(start.inside, gather(items, world.parts().leaves, q, infinity, close));
+          ASSERT_EQ(start.has_boundary, next_boundary(items, close, next, first));
+          if (!start.has_boundary) continue;
+          ASSERT_EQ(start.first.t, first.t) << seed;
+          ASSERT_EQ(start.first.leaf, first.leaf) << seed;
+          ASSERT_EQ(start.first.entering, first.entering) << seed;
+          ASSERT_GE(start.first.t + start.first.error, first.t + first.error) << seed;
+        }
+      }
+    }
+}
+
 /// Two chains of transforms that are the same in exact arithmetic, the first stretched by up to 10^decades.
 std::pair<Affine, Affine> twin_chains(RandomRays& random, double decades = 0) {
   const double a = random.uniform(-180, 180), b = random.uniform(-180, 180);

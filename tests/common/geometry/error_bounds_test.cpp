@@ -89,5 +89,42 @@ TEST(ErrorBounds, NoCrossingIsFartherFromTheExactOneThanItStates) {
     }
 }
 
+TEST(ErrorBounds, AGlanceThatIsSureAgreesToTheBitWithACloseLook) {
+  constexpr int rays = 20'000;
+  RandomRays random(21);
+  for (const Solid& solid : all_solids()) {
+    int sure = 0;
+    for (int i = 0; i < rays; ++i) {
+      const Affine map = random_map(i % 3, random);
+      const Leaf leaf = make_leaf(solid, bounded(map));
+      Ray ray = hard_ray(i / 3, map, random);
+      if (i % 2) {
+        const Ray near = random.towards_box(5, 1.5);  // and some that start inside
+        ray.direction = direction_by(map, near.direction);
+        ray.origin = point_by(map, near.origin * random.uniform(0, 1));
+        ray.origin_error = i % 4 == 1 ? 0 : 0x1p-50 * max_abs(ray.origin);
+      }
+      const Glance g = glance(leaf, RayQuery(ray));
+      if (g.verdict == Glance::Verdict::unsure) continue;
+      ++sure;
+      const Crossings close = crossings(leaf, RayQuery(ray));
+      const bool passes = g.verdict == Glance::Verdict::passes;
+      ASSERT_EQ(close.starts_inside, passes && g.enter < 0) << kind_of(solid) << ", ray " << i;
+      std::vector<double> ends;
+      if (passes && g.enter > 0) ends.push_back(g.enter);
+      if (passes && g.leave < infinity) ends.push_back(g.leave);
+      const std::vector<Crossing> found = without_pairs(close, ends.size());
+      ASSERT_EQ(found.size(), ends.size()) << kind_of(solid) << ", ray " << i;
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        ASSERT_EQ(found[k].t, ends[k]) << kind_of(solid) << ", ray " << i;
+        ASSERT_LE(found[k].hi(), ends[k] + g.blur) << kind_of(solid) << ", ray " << i;
+      }
+    }
+    const bool has_glance = std::holds_alternative<Sphere>(solid) || std::holds_alternative<Plane>(solid) ||
+                            std::holds_alternative<Cylinder>(solid) || std::holds_alternative<Cube>(solid);
+    EXPECT_GT(sure, has_glance ? rays * 2 / 5 : -1) << kind_of(solid);
+  }
+}
+
 }  // namespace
 }  // namespace rayfarm

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "common/render/camera_rays.h"
+#include "common/render/hit.h"
 #include "common/render/world_parts.h"
 #include "tests/support/random_scene.h"
 
@@ -60,6 +61,16 @@ TEST(RayTests, WhoCountsFindsTheSame) {
         ASSERT_EQ(a.has_value(), b.has_value());
         ASSERT_TRUE(!a || (a->t == b->t && a->leaf == b->leaf && a->entering == b->entering));
         ASSERT_EQ(is_blocked(world.parts(), query, plain), is_blocked(world.parts(), query, counting));
+        if (!a) continue;
+        const Hit hit = hit_at(world.parts(), query, *a);
+        for (const bool outside : {true, false}) {
+          const RayQuery next(
+              ray_from(hit, hit.normal * (outside ? 1.0 : -1.0) + ray->direction * 0.3, outside));
+          const auto c = first_boundary(world.parts(), next, plain);
+          const auto d = first_boundary(world.parts(), next, counting);
+          ASSERT_EQ(c.has_value(), d.has_value());
+          ASSERT_TRUE(!c || (c->t == d->t && c->leaf == d->leaf && c->entering == d->entering));
+        }
       }
       EXPECT_GT(counting.csg.tests.boxes, 0u);
     }

@@ -81,7 +81,7 @@ class DepthOracle {
       std::sort(depths.begin(), depths.end());
       return depths;
     }
-    const Crossings all = crossings_ahead(world_.leaves[leaf], leaf, ray);
+    const Crossings all = crossings_ahead(solid, ray);
     for (int i = 0; i < all.count; ++i) depths.push_back(all.at[static_cast<std::size_t>(i)].t);
     return depths;
   }
