@@ -4,7 +4,7 @@ import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from
 import { closeBrowser, openApp, screenshot, type App } from "../support/app";
 import { Farm } from "../support/farm";
 import { fillForm, isNow, listed, submit, submitButton } from "../support/jobs";
-import { allShown, canvas, seen, showLayer } from "../support/picture";
+import { allShown, canvas, placeOf, seen, showLayer, type Pixel } from "../support/picture";
 
 let farm: Farm;
 let app: App;
@@ -54,6 +54,38 @@ describe("a master that is killed", () => {
     await page.locator(`#job-${byCommand}`).getByText("by command").waitFor();
     await page.keyboard.press("Shift+W");
     await page.getByRole("row", { name: /^lab1/ }).waitFor(); // the worker has found it too
+  });
+
+  it("leaves no rays beside another pixel's name, and takes those of its jobs along", async () => {
+    const job = await farm.render("sphere_plane", "--size", "80x60", "--spp", "4");
+    await showLayer(page, job);
+    await page.keyboard.press("v");
+    const rays = page.locator('section[data-scope="rays"]');
+    const click = async (pixel: Pixel): Promise<void> => {
+      const place = await placeOf(page, pixel, { width: 80, height: 60 });
+      await page.mouse.click(place.x, place.y);
+    };
+    await rays.and(page.locator('[data-ready="true"]')).waitFor(); // the picture has its new size
+    await click({ x: 40, y: 30 });
+    await rays.and(page.locator('[data-pixel="40,30"]')).waitFor();
+    expect(await page.getByRole("treeitem").count()).toBeGreaterThan(1);
+    const bars = page.locator(".rays-spans .span");
+    expect(await bars.count()).toBeGreaterThan(0);
+
+    await farm.stopMaster("SIGKILL");
+    await banner().waitFor();
+    await click({ x: 20, y: 50 });
+    await rays.getByText("The master does not answer; is it running?").waitFor();
+    expect(await page.locator(".rays-status").innerText()).toBe("Pixel 20, 50");
+    expect(await page.getByRole("treeitem").count()).toBe(0);
+    expect(await bars.count()).toBe(0);
+    await page.getByText("No ray yet.").waitFor();
+
+    await farm.startMaster();
+    await banner().waitFor({ state: "detached" });
+    await rays.getByText("No job is selected.").waitFor();
+    expect(await rays.getAttribute("data-segments")).toBe("0");
+    expect(await rays.getByRole("alert").count()).toBe(0);
   });
 
   it("while it is away nothing else breaks: pages, help and palette work", async () => {

@@ -228,6 +228,19 @@ describe("the span chart", () => {
   });
 });
 
+describe("a probed pixel", () => {
+  it("is carried to a result of the same size, and dropped at one that has no such pixel", async () => {
+    const small = await farm.render("sphere_plane", "--size", "40x30", "--spp", "4");
+    await probe(ball);
+    await showLayer(page, small);
+    await page.getByText("Click a pixel of the picture: its rays are shown here.").waitFor();
+    expect(await rays().getByRole("alert").count()).toBe(0);
+    expect(await rays().getAttribute("data-rays")).toBe("0");
+    await showLayer(page, job);
+    await settled(ball);
+  });
+});
+
 describe("dragging over the picture", () => {
   it("asks for one pixel at a time and ends at the last", async () => {
     await probe(ball);

@@ -27,8 +27,14 @@ export const selectedJob = computed<Job | null>(
 );
 export const layer = signal<LayerChoice>({ layer: "picture", reduce: "majority", compat: false });
 
-/// The pixel that was clicked, whose rays are shown.
-export const probed = signal<Pixel | null>(null);
+const clicked = signal<Pixel | null>(null);
+/// Null: none any more.
+export const probe = (pixel: Pixel | null): void => void (clicked.value = pixel);
+/// The pixel that was clicked last, whose rays are shown; none where the selected job's picture does not reach so far.
+export const probed = computed<Pixel | null>(() => {
+  const [pixel, size] = [clicked.value, selectedJob.value?.settings];
+  return pixel && size && pixel.x < size.width && pixel.y < size.height ? pixel : null;
+});
 export const raysShown = signal(false);
 
 /// Words for people, newest last; errors stay until they are dismissed.

@@ -1,5 +1,5 @@
 // What the gestures over the picture do to the app.
-import { probed } from "../app/state";
+import { probe } from "../app/state";
 import { comparison, compares, shiftHeld, wipeAt } from "./compare";
 import type { Hands } from "./gestures";
 import { onFrame } from "./on_frame";
@@ -24,19 +24,18 @@ export function makeHands(): Hands & { stop: () => void } {
   let scrubbed: Point | null = null;
   const scrubbing = onFrame(() => {
     const pixel = scrubbed && pixelUnder(scrubbed);
-    if (pixel) probed.value = pixel;
+    if (pixel) probe(pixel);
   });
   const place = (at: Point): Point => toPicture(currentView.peek(), screen.peek(), at);
-  const probe = (at: Point): void => {
-    const pixel = pixelUnder(at);
-    if (!pixel) return;
-    probed.value = pixel;
-    cursor.value = null;
-  };
   return {
     pan: panBy,
     zoom: zoomBy,
-    probe,
+    probe: (at) => {
+      const pixel = pixelUnder(at);
+      if (!pixel) return;
+      probe(pixel);
+      cursor.value = null;
+    },
     scrub: (at) => {
       scrubbed = at;
       scrubbing.ask();

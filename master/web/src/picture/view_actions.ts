@@ -1,6 +1,6 @@
 // Zoom, pan, and the cursor that probes without a pointer.
 import type { Action } from "../app/actions";
-import { probed, type Pixel } from "../app/state";
+import { probe, probed, type Pixel } from "../app/state";
 import { act, gesture } from "./action";
 import { bigZoomStep, zoomStep } from "./gestures";
 import { selection } from "./selection";
@@ -40,7 +40,8 @@ function moveCursor(x: number, y: number): void {
 
 function reset(): void {
   fit();
-  selection.value = cursor.value = probed.value = null;
+  selection.value = cursor.value = null;
+  probe(null);
 }
 
 const directions = { Left: [-1, 0], Right: [1, 0], Up: [0, -1], Down: [0, 1] } as const;
@@ -89,6 +90,6 @@ export const viewActions: Action[] = [
   act("focus-picture", "Go to the picture, to probe with the arrow keys", ["I"], () =>
     document.getElementById(canvasId)?.focus(),
   ),
-  withFocus("probe", "Probe the pixel under the cursor", "Enter", () => (probed.value = cursorStart())),
+  withFocus("probe", "Probe the pixel under the cursor", "Enter", () => probe(cursorStart())),
   ...arrowActions,
 ];

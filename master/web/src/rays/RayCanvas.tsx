@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { bytes } from "../app/format";
-import { probed, selectedId } from "../app/state";
+import { probed } from "../app/state";
 import { pose, setAspect } from "./camera";
 import { cloudState } from "./cloud";
 import { currentSvg, save } from "./export";
@@ -12,6 +12,7 @@ import { nameOf } from "./record";
 import { scene, sceneError } from "./scene";
 import { segmentsShown } from "./segments_shown";
 import { entryOf, hover, select } from "./selection";
+import { subject } from "./subject";
 import { listenToHands } from "./three/gestures";
 import { openView, type View } from "./three/view";
 
@@ -101,7 +102,7 @@ function CloudProgress() {
 }
 
 function Hint() {
-  if (selectedId.value === null) return <p class="rays-note">No job is selected.</p>;
+  if (!subject.value) return <p class="rays-note">No job is selected.</p>;
   if (!probed.value) return <p class="rays-note">Click a pixel of the picture: its rays are shown here.</p>;
   return null;
 }

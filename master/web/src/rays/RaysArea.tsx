@@ -1,7 +1,6 @@
 // The rays of the probed pixel in 3D, as a tree, and as spans. Loaded when it is first shown.
 import { effect, untracked } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { selectedId } from "../app/state";
 import { alignWithPrimary } from "./align";
 import { show } from "./camera";
 import { followCloud } from "./cloud";
@@ -14,6 +13,7 @@ import { followScene, landmarksOf, scene, sceneError } from "./scene";
 import { segmentsShown } from "./segments_shown";
 import { rayCount } from "./selection";
 import { SpanChart } from "./SpanChart";
+import { subject } from "./subject";
 import { Toolbar } from "./Toolbar";
 import "./rays.css";
 
@@ -37,7 +37,7 @@ export function RaysArea() {
     return () => ends.forEach((end) => end());
   }, []);
   const pixel = answer.value?.question.pixel;
-  const known = selectedId.value === null || scene.value !== null || sceneError.value !== null;
+  const known = subject.value === null || scene.value !== null || sceneError.value !== null;
   return (
     <section
       class="rays"

@@ -92,7 +92,7 @@ function SampleChoice() {
 
 function Status() {
   const got = answer.value;
-  const pixel = probed.value;
+  const pixel = got?.question.pixel ?? probed.value;
   return (
     <span class="rays-status quiet" aria-live="polite">
       {pixel && (

@@ -1,10 +1,10 @@
 // The job's point cloud, fetched when it is first shown.
 import { effect, signal } from "@preact/signals";
 import { getMade } from "../app/api";
-import { frameQuery, shownFrame } from "../app/frames";
-import { selectedId } from "../app/state";
+import { frameQuery } from "../app/frames";
 import { shown } from "./options";
 import { parsePly, type Cloud } from "./ply";
+import { subject, type Subject } from "./subject";
 
 export type CloudState =
   | { state: "none" }
@@ -34,7 +34,7 @@ async function bodyOf(
   return new Blob(chunks).arrayBuffer();
 }
 
-async function load(job: number, frame: number | null, signal: AbortSignal): Promise<void> {
+async function load({ job, frame }: Subject, signal: AbortSignal): Promise<void> {
   const tell = (state: CloudState) => {
     if (!signal.aborted) cloudState.value = state;
   };
@@ -49,25 +49,23 @@ async function load(job: number, frame: number | null, signal: AbortSignal): Pro
   }
 }
 
-/// Of the selected job while it is shown, until the result is called. Hiding keeps it; another job's takes its place.
+/// Of the job while it is shown, until the result is called. Hiding keeps it; another job's takes its place.
 export function followCloud(): () => void {
   let controller: AbortController | null = null;
-  let loaded: string | null = null; // job and frame
+  let loaded: Subject | null = null;
   const forget = () => {
     controller?.abort();
     controller = loaded = null;
     cloudState.value = { state: "none" };
   };
   const unfollow = effect(() => {
-    const job = selectedId.value;
-    const frame = shownFrame.value;
-    const which = `${job} ${frame}`;
+    const which = subject.value;
     const wanted = shown.cloud.value;
     if (loaded !== null && (which !== loaded || (!wanted && cloudState.peek().state !== "ready"))) forget();
-    if (!wanted || job === null || loaded === which) return;
+    if (!wanted || which === null || loaded === which) return;
     controller = new AbortController();
     loaded = which;
-    void load(job, frame, controller.signal);
+    void load(which, controller.signal);
   });
   return () => {
     unfollow();

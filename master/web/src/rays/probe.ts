@@ -2,18 +2,17 @@
 // pointer passes meanwhile only the newest is asked for.
 import { computed, effect, signal } from "@preact/signals";
 import { getJson } from "../app/api";
-import { frameQuery, shownFrame } from "../app/frames";
-import { link, probed, selectedId, type Pixel } from "../app/state";
+import { frameQuery } from "../app/frames";
+import { link, probed, type Pixel } from "../app/state";
 import { newestWins } from "./newest";
+import { ofOneScene, subject, type Subject } from "./subject";
 import type { PixelTrace } from "./trace";
 
 /// A sample by its number, all of the pixel, or the pixel's centre, which the picture did not use.
 export type SampleChoice = number | "all" | "centre";
 export const sampleChoice = signal<SampleChoice>(0);
 
-export interface Question {
-  job: number;
-  frame: number | null; // of an animation
+export interface Question extends Subject {
   pixel: Pixel;
   sample: SampleChoice;
 }
@@ -24,16 +23,16 @@ export interface Answer {
   milliseconds: number; // from the request to the decoded answer
 }
 
-/// The newest; it stays while the next one is under way.
+/// The newest; it stays while the next one is under way, and goes when that fails: rays are never those of another pixel.
 export const answer = signal<Answer | null>(null);
 export const asking = signal(false);
 /// Why there is no newer answer, in words.
 export const probeError = signal<string | null>(null);
 
 const question = computed<Question | null>(() =>
-  selectedId.value === null || !probed.value
-    ? null
-    : { job: selectedId.value, frame: shownFrame.value, pixel: probed.value, sample: sampleChoice.value },
+  subject.value && probed.value
+    ? { ...subject.value, pixel: probed.value, sample: sampleChoice.value }
+    : null,
 );
 
 const pathOf = ({ job, frame, pixel, sample }: Question): string =>
@@ -56,19 +55,20 @@ export function followProbe(): () => void {
       asking.value = question.peek() !== asked;
     },
     (asked, error) => {
+      answer.value = null;
       probeError.value = error instanceof Error ? error.message : String(error);
       asking.value = question.peek() !== asked;
     },
   );
-  let job: number | null = null;
+  let last: Question | null = null;
   const unfollow = effect(() => {
     const next = question.value;
-    if (next?.job !== job) {
+    if (!ofOneScene(next, last)) {
       newest.stop();
-      if (answer.peek()?.question.job !== next?.job) answer.value = null;
+      if (!ofOneScene(next, answer.peek()?.question)) answer.value = null;
       probeError.value = null;
     }
-    job = next?.job ?? null;
+    last = next;
     asking.value = next !== null;
     if (next) newest.ask(next);
   });

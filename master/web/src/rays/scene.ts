@@ -1,11 +1,12 @@
 // The selected job's scene as the master describes it (GET /jobs/ID/scene), for the 3D view.
 import { computed, effect, signal } from "@preact/signals";
 import { getJson } from "../app/api";
-import { frameQuery, shownFrame } from "../app/frames";
-import { link, selectedId } from "../app/state";
+import { frameQuery } from "../app/frames";
+import { link } from "../app/state";
 import type { Vec3 } from "../app/types";
 import { answer } from "./probe";
 import { cutBox } from "./segments";
+import { subject, type Subject } from "./subject";
 import { type Box, boxAround, centreOf, diagonalOf, edgesOf, lengthOf, minus } from "./vec";
 
 export interface SolidView {
@@ -63,21 +64,20 @@ export const everything = computed<Box>(() =>
   boxAround([box.value.min, box.value.max, ...(scene.value ? lightPlaces(scene.value) : [])])!,
 );
 
-/// Of the selected job, until the result is called. What could not be had is asked for again when the connection to
+/// Of the job that is shown, until the result is called. What could not be had is asked for again when the connection to
 /// the master is found again.
 export function followScene(): () => void {
-  let got: string | null = null; // its path
+  let got: Subject | null = null;
   return effect(() => {
-    const job = selectedId.value;
-    const path = `/jobs/${job}/scene${frameQuery(shownFrame.value, "?")}`;
-    if (link.value === "lost" || path === got) return;
+    const asked = subject.value;
+    if (asked && (link.value === "lost" || asked === got)) return;
     scene.value = sceneError.value = got = null;
-    if (job === null) return;
+    if (!asked) return;
     const controller = new AbortController();
-    getJson<SceneView>(path, controller.signal).then(
+    getJson<SceneView>(`/jobs/${asked.job}/scene${frameQuery(asked.frame, "?")}`, controller.signal).then(
       (view) => {
         scene.value = view;
-        got = path;
+        got = asked;
       },
       (error: unknown) => {
         if (!controller.signal.aborted)
