@@ -56,6 +56,22 @@ describe("a job of the master's scenes", () => {
     expect(page.url()).toMatch(/#\/jobs\/\d+$/);
   });
 
+  it("has the form of its scene in sight as soon as that is chosen", async () => {
+    await page.keyboard.press("Shift+N");
+    const scene = page.getByRole("radio", { name: /^sphere_flake/ });
+    await scene.check();
+    const inSight = async (name: string): Promise<boolean> => {
+      const box = (await page.getByLabel(name, { exact: true }).boundingBox())!;
+      return box.y >= 0 && box.y + box.height < (await submitButton(page).boundingBox())!.y;
+    };
+    expect(await inSight("depth")).toBe(true);
+    expect(await inSight("Width")).toBe(true);
+    await page.getByLabel("Hold").scrollIntoViewIfNeeded();
+    expect(await scene.isVisible()).toBe(true);
+    await page.locator(".scenes label").last().scrollIntoViewIfNeeded();
+    expect(await inSight("Name")).toBe(true); // each scrolls by itself
+  });
+
   it("is seen before it is finished, can be paused, and becomes the exact picture", async () => {
     await fillForm(page, { name: "watched flake", depth: 5, width: 160, height: 120, spp: 128 });
     await submit(page, "watched flake");

@@ -29,9 +29,11 @@ export function Submit() {
       <div class="columns">
         <div>
           <SceneChoice />
-          <ParameterFields />
         </div>
-        <SettingFields />
+        <div>
+          <ParameterFields />
+          <SettingFields />
+        </div>
       </div>
       <footer>
         <button class="main" type="submit" disabled={fault !== undefined || scriptIsBroken || sending.value}>
