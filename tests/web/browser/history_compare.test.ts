@@ -104,6 +104,10 @@ describe("the history of a scene", () => {
   it("says what is other about each result, and is as long as one wishes", async () => {
     const result = page.locator(`.results [data-job="${other}"]`);
     await expect.poll(() => result.innerText()).toMatch(/seed\s*7/);
+    const cut = page.locator(".results .changes > span").evaluateAll((all) =>
+      all.filter((each) => each.getBoundingClientRect().right > each.closest("button")!.getBoundingClientRect().right),
+    );
+    expect(await cut).toEqual([]);
     const length = page.getByLabel("last");
     await length.fill("5");
     await length.press("Enter");
@@ -187,6 +191,16 @@ describe("two results", () => {
     expect(numbersIn(reference)).toEqual(
       exr.at(differing.x, differing.y).reverse().map((value) => rounded(value, 6)),
     );
+    const values = page.locator(".section").filter({ has: page.getByRole("heading", { name: "Values" }) });
+    const current = await exrOf(shadowless);
+    const farthest = [0, 0, 0]; // by channel
+    for (let y = 0; y < size.height; ++y)
+      for (let x = 0; x < size.width; ++x)
+        [current, exr].map((each) => each.at(x, y)).reduce((a, b) => a.map((value, c) => Math.abs(value - b[c]!)))
+          .forEach((apart, c) => (farthest[c] = Math.max(farthest[c]!, apart)));
+    const told = async () => numbersIn((await values.locator('[data-figure="max"] td').allInnerTexts()).join(" "));
+    await expect.poll(told).toEqual(farthest.reverse().map((value) => rounded(value, 4)));
+    expect(await values.locator(".aside").innerText()).toContain("|a − b|");
     await screenshot(page, "comparison-difference");
     await page.keyboard.press("Shift+X");
     await page.getByText("Choose a reference in the history").waitFor();

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { csvOf, numberText } from "../../../master/web/src/picture/csv";
-import { comparable, differenceOf, errorsOf } from "../../../master/web/src/picture/difference";
+import { comparable, differenceOf, differencesOf, errorsOf, metrics } from "../../../master/web/src/picture/difference";
 import { fieldText, fieldUnit, fixed, plain, timeText } from "../../../master/web/src/picture/format";
 import { LayerData, whole } from "../../../master/web/src/picture/layer_data";
 import { areaBetween, areaIn } from "../../../master/web/src/picture/selection";
@@ -95,6 +95,20 @@ describe("a difference", () => {
     expect(differenceOf(1, 4, "signed")).toBe(-differenceOf(4, 1, "signed"));
     expect(differenceOf(1, 4, "absolute")).toBe(differenceOf(4, 1, "absolute"));
     expect(differenceOf(3, 2, "relative")).toBeCloseTo(1 / 2.01);
+  });
+
+  it("is a layer with figures of its own, there where both are", () => {
+    const part = new LayerData(4, 1, 1, 1);
+    part.put({ id: 1, x: 1, y: 0, width: 3, height: 1, stride: 1, channels: 1, values: Float32Array.of(5, 1, 6) });
+    for (const metric of metrics) {
+      if (metric === "flip") continue;
+      const made = differencesOf(a, part, metric);
+      expect(made.at(0, 0)).toBeNull();
+      expect(figuresOf(made, 0, whole(made))).toMatchObject({ absent: 1, infinite: 1, finite: 2 });
+      expect(made.at(1, 0)![0]).toBe(Math.fround(differenceOf(2, 5, metric)));
+    }
+    const { max } = figuresOf(differencesOf(a, b, "absolute"), 0, whole(a));
+    expect(max).toBe(errorsOf(a, b, whole(a)).max);
   });
 
   it("needs two of one shape", () => {

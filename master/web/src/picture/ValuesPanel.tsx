@@ -2,14 +2,15 @@ import { useEffect, useRef } from "preact/hooks";
 import { count } from "../app/format";
 import { theme } from "../app/theme";
 import type { MapEntry } from "../app/types";
-import { shownEntry } from "./compare";
 import { shownMap, shownOf } from "./display";
+import { metricNames } from "./difference";
 import { plain, timeText } from "./format";
 import { palettes } from "./palettes";
 import { logStep, positionOf } from "./range";
 import { saveSelection } from "./save";
 import { Section } from "./Section";
 import { areaIn, selection } from "./selection";
+import { shownMetric, shownStand, shownValues } from "./shown_values";
 import { figuresOf, histogramOf, type Figures } from "./statistics";
 import { useSteady } from "./steady";
 
@@ -23,15 +24,16 @@ interface Summary {
 const bins = 128;
 
 function summary(): Summary | null {
-  const data = shownEntry.value?.data;
-  const area = data && areaIn(data, selection.value);
-  if (!data || !area) return null;
+  const shown = shownValues();
+  const area = shown && areaIn(shown.data, selection.value);
+  if (!area) return null;
+  const { data, difference } = shown;
   const channels = Array.from({ length: data.channels }, (_, c) => c);
   const figures = channels.map((c) => figuresOf(data, c, area));
   const finite = figures.filter((each) => each.finite > 0);
   const low = Math.min(...finite.map((each) => each.min));
   const high = Math.max(...finite.map((each) => each.max));
-  const map = shownMap.value;
+  const map = difference ? null : shownMap.value;
   // As the map's colours are.
   const isLog = map !== null && palettes[map.scale].length > 0 && shownOf(map).log;
   const step = map ? logStep(map) : 1;
@@ -110,19 +112,24 @@ function Oddities({ figures, isMap }: { figures: Figures[]; isMap: boolean }) {
 export function ValuesPanel() {
   const map = shownMap.value;
   const data = useSteady(
-    () => [shownEntry.value?.revision.value, selection.value, shownMap.value && shownOf(shownMap.value).log],
+    () => [shownStand(), selection.value, shownMap.value && shownOf(shownMap.value).log],
     summary,
   );
   const area = selection.value;
   const text = (value: number): string =>
     map?.unit === "seconds" && value >= 0 ? timeText(value) : plain(value, 4);
   if (map?.scale === "label") return null;
+  const metric = shownMetric();
   const names = namesOf(map, data?.figures.length ?? 1);
   return (
     <Section
       title="Values"
-      aside={area ? `${area.width} × ${area.height} at ${area.x}, ${area.y}` : "whole picture"}
+      aside={[
+        ...(metric ? [metricNames[metric]] : []),
+        area ? `${area.width} × ${area.height} at ${area.x}, ${area.y}` : "whole picture",
+      ].join(" · ")}
     >
+      {metric === "flip" && <p class="quiet hint">ꟻLIP is shown in colours; its mean is told under Compare.</p>}
       {data && data.histograms.length > 0 && <HistogramView summary={data} text={text} />}
       {data && data.low <= data.high && (
         <table class="figures">
@@ -139,7 +146,7 @@ export function ValuesPanel() {
             </thead>
           )}
           <tbody>
-            {rowsFor(map, text).map(([title, of]) => (
+            {rowsFor(metric ? null : map, text).map(([title, of]) => (
               <tr key={title} data-figure={title}>
                 <th scope="row">{title}</th>
                 {data.figures.map((figures, c) => (
@@ -150,13 +157,13 @@ export function ValuesPanel() {
           </tbody>
         </table>
       )}
-      {data && <Oddities figures={data.figures} isMap={map !== null} />}
+      {data && <Oddities figures={data.figures} isMap={map !== null && metric === null} />}
       {area ? (
         <div class="buttons">
           <button title="Shift+A" onClick={() => (selection.value = null)}>
             Whole picture
           </button>
-          <button title="The selected values as a table" onClick={saveSelection}>
+          <button title="The selected values as a table" disabled={!data} onClick={saveSelection}>
             Save CSV
           </button>
         </div>

@@ -1,5 +1,5 @@
 // How two layers of the same size differ.
-import { missing, type LayerData, type Rect } from "./layer_data";
+import { LayerData, missing, type Rect } from "./layer_data";
 
 export type Metric = "absolute" | "signed" | "relative" | "flip";
 export const metrics: Metric[] = ["absolute", "signed", "relative", "flip"];
@@ -31,6 +31,15 @@ export interface Errors {
 
 export const comparable = (a: LayerData, b: LayerData): boolean =>
   a.width === b.width && a.height === b.height && a.channels === b.channels && a.step === b.step;
+
+/// Of two that are comparable: there where both are.
+export function differencesOf(a: LayerData, b: LayerData, metric: Exclude<Metric, "flip">): LayerData {
+  const made = new LayerData(a.width, a.height, a.channels, a.step);
+  for (let i = 0; i < a.there.length; ++i)
+    made.there[i] = a.there[i] === missing || b.there[i] === missing ? missing : Math.max(a.there[i]!, b.there[i]!);
+  for (let i = 0; i < a.values.length; ++i) made.values[i] = differenceOf(a.values[i]!, b.values[i]!, metric);
+  return made;
+}
 
 /// Over the values that are there in both; those that are finite in neither are equal.
 export function errorsOf(a: LayerData, b: LayerData, area: Rect): Errors {

@@ -13,6 +13,7 @@ import { Painter, type Look } from "./painter";
 import { palettes, viridis } from "./palettes";
 import type { Range, Shown } from "./range";
 import { areaIn, selection } from "./selection";
+import { shownValues } from "./shown_values";
 
 export type Format = "png" | "exr" | "csv";
 
@@ -109,15 +110,16 @@ export function save(format: Format): void {
 
 /// The selected values as they are here.
 export function saveSelection(): void {
-  const job = selectedJob.peek();
-  const data = currentEntry.peek()?.data;
-  const area = data && areaIn(data, selection.peek());
-  if (!job || !data || !area) return;
-  const name = layer.peek().layer;
+  const shown = shownValues();
+  const area = shown && areaIn(shown.data, selection.peek());
+  if (!area) return;
+  const { data, job, difference } = shown;
+  const kind = difference ? ` ${difference.metric} difference from job ${difference.from.id}` : "";
+  const name = layer.peek().layer + kind;
   const place = `x ${area.x * data.step} to ${(area.x + area.width - 1) * data.step}, y ${area.y * data.step} to ${(area.y + area.height - 1) * data.step}`;
   const title = `${name} of job ${job.id}, ${job.name}: ${place}${data.step > 1 ? `, one pixel of ${data.step} each way` : ""}`;
   download(
     new Blob([csvOf(data, area, title)], { type: "text/csv" }),
-    `${baseName(job)}-${name}-selection.csv`,
+    `${baseName(job)}-${name.replaceAll(" ", "-")}-selection.csv`,
   );
 }
