@@ -128,6 +128,13 @@ describe("the keyboard alone", () => {
     expect(focused).toBe("combobox");
   });
 
+  it("closes the palette with one Escape, whatever is written there", async () => {
+    await page.keyboard.press("Control+k");
+    await page.keyboard.type("depth");
+    await page.keyboard.press("Escape");
+    expect(await page.getByRole("dialog").count()).toBe(0);
+  });
+
   it("finds actions, layers and jobs by name in the palette, and the back button goes back", async () => {
     await showLayer(page, job);
     await page.keyboard.press("Control+k");

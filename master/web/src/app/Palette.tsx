@@ -89,7 +89,7 @@ function OpenPalette() {
   return (
     <Dialog label="Find an action, a layer or a job" class="palette" close={close}>
       <input
-        type="search"
+        type="text"
         placeholder="Action, layer or job"
         role="combobox"
         aria-label="Action, layer or job"
