@@ -90,6 +90,10 @@ describe("a worker to be dialled", () => {
     await row("attic").getByText("dialling").waitFor();
     expect(await page.locator("#dial-fault").count()).toBe(0);
     expect(await toldState("attic")).toBe("dialling");
+    const why = row("attic").locator(".why");
+    await why.waitFor();
+    expect(await why.evaluate((each) => each.scrollWidth <= each.clientWidth)).toBe(true);
+    await screenshot(page, "workers-dialling");
   });
 });
 

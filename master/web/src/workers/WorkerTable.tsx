@@ -85,7 +85,7 @@ function WorkerRow({ worker }: { worker: Worker }) {
         </th>
         <td>
           <span class={`worker-state ${worker.state}`}>{worker.state}</span>
-          {worker.message && <small title={worker.message}>{worker.message}</small>}
+          {worker.message && <small class="why">{worker.message}</small>}
         </td>
         <td class="number">{worker.threads || ""}</td>
         <td class="number">{worker.samples_per_second > 0 && short(worker.samples_per_second)}</td>
