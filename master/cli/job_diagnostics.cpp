@@ -50,7 +50,7 @@ Rows hit_rows(const json& hits) {
   for (const json& leaf : hits) all += leaf["hits"].get<std::uint64_t>();
   Rows rows{{"SOLID", "HITS", "SHARE"}};
   for (const json& leaf : hits)
-    rows.push_back({printable(leaf["name"]), leaf["hits"].dump(), percent(leaf["hits"], all)});
+    rows.push_back({printable(leaf["name"]), leaf["hits"].dump(), share(leaf["hits"], all)});
   return rows;
 }
 

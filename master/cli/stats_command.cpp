@@ -98,7 +98,7 @@ void print(const Report& r) {
   Table hits{{"SOLID", "HITS", "SHARE"}};
   for (const std::size_t leaf : leaves_hit(r.statistics))
     hits.push_back({printable(r.names[leaf]), std::to_string(r.statistics.hits[leaf]),
-                    percent(r.statistics.hits[leaf], c.primary_hits + c.secondary_hits)});
+                    share(r.statistics.hits[leaf], c.primary_hits + c.secondary_hits)});
 
   Table times{{"PHASE", "SECONDS"}};
   for (const Phase& phase : r.phases) times.push_back({phase.name, thousandths(phase.seconds)});

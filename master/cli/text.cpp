@@ -32,6 +32,13 @@ std::string percent(std::uint64_t part, std::uint64_t whole) {
          "%";
 }
 
+std::string share(std::uint64_t part, std::uint64_t whole) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.1f%%",
+                whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole));
+  return text;
+}
+
 std::string table(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

@@ -23,6 +23,7 @@ struct TraceArguments {
   PictureOptions picture;
   std::optional<JobNumber> job;
   std::string pixel, sample = "0", svg_file;
+  std::uint32_t ray = 0;
   bool json = false;
 };
 
@@ -55,6 +56,7 @@ ExitCode trace_job(const TraceArguments& a) {
   const Query query{{"x", std::to_string(pixel.x)},
                     {"y", std::to_string(pixel.y)},
                     {"sample", a.sample},
+                    {"story", std::to_string(a.ray)},
                     {"frame", frame_text(a.picture.frame)}};
   if (!a.svg_file.empty()) {
     Query drawn = query;
@@ -73,7 +75,7 @@ ExitCode trace(const TraceArguments& a) {
   const SampleChoice choice = sample_choice(a.sample, scene.settings);
   auto names = std::make_shared<std::vector<std::string>>(leaf_names(scene.scene));
   const World world(std::move(scene.scene));
-  const PixelTrace trace = pixel_trace(world, names, scene.settings, pixel, choice);
+  const PixelTrace trace = pixel_trace(world, names, scene.settings, pixel, choice, a.ray);
 
   if (!a.svg_file.empty()) {
     const std::string svg = svg_of(trace);
@@ -97,6 +99,9 @@ void add_trace_command(CLI::App& app, Command& chosen) {
   add_job_option(*command, arguments->job);
   command->add_option("--pixel", arguments->pixel, "X,Y from the upper left, from 0")->required();
   command->add_option("--sample", arguments->sample, "Number of a sample (default 0), all or centre");
+  command->add_option(
+      "--ray", arguments->ray,
+      "Which of the sample's rays the story of solids is told along, by its number (default 0)");
   command->add_option("-o,--output", arguments->svg_file, "Draw the rays, .svg");
   command->add_flag("--json", arguments->json, "Rays as JSON");
   command->footer(

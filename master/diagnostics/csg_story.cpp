@@ -1,6 +1,7 @@
 #include "master/diagnostics/csg_story.h"
 
 #include "common/render/hit.h"
+#include "master/diagnostics/leaf_names.h"
 
 namespace rayfarm {
 namespace {
@@ -79,6 +80,7 @@ LeafPath path_of(const Leaf& leaf, const RayQuery& query) {
 }  // namespace
 
 CsgStory csg_story(const World& world, const Ray& ray) {
+  const std::vector<bool> subtracted = subtracted_leaves(world.scene());
   const World::Parts& parts = world.parts();
   const RayQuery query(ray);
   CsgStory story;
@@ -87,7 +89,7 @@ CsgStory csg_story(const World& world, const Ray& ray) {
     if (!path.starts_inside && path.crossings.empty()) continue;
     Walk walk(path.starts_inside);
     for (const double t : path.crossings) walk.cross(t);
-    story.leaves.push_back({leaf, std::move(walk).stretches()});
+    story.leaves.push_back({leaf, subtracted[leaf], std::move(walk).stretches()});
   }
   story.material = material_along(parts, ray);
   return story;

@@ -16,6 +16,7 @@ struct Stretch {
 
 struct LeafStretches {
   std::uint32_t leaf = 0;
+  bool is_subtracted = false;  // material where the ray is not inside: it stands right of a difference
   std::vector<Stretch> stretches;
 };
 

@@ -48,10 +48,11 @@ std::shared_ptr<const ReadyScene> Diagnostics::scene(const Subject& subject) {
   return worlds_.get({subject.scene_hash, subject.scene}, subject.assets);
 }
 
-PixelTrace Diagnostics::trace(const Subject& subject, Pixel pixel, const SampleChoice& choice) {
+PixelTrace Diagnostics::trace(const Subject& subject, Pixel pixel, const SampleChoice& choice,
+                              std::uint32_t story_ray) {
   const auto ready = scene(subject);
   const LeafNames names(ready, &ready->leaf_names());
-  return pixel_trace(ready->world(), names, subject.settings, pixel, choice,
+  return pixel_trace(ready->world(), names, subject.settings, pixel, choice, story_ray,
                      {most_rays_recorded, [this] { return stopping_.load(); }});
 }
 

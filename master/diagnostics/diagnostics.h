@@ -70,7 +70,7 @@ class Diagnostics {
   std::shared_ptr<const ReadyScene> scene(const Subject& subject);
 
   /// At once, with at most so many rays. Throws SettingsError for what the picture has not got.
-  PixelTrace trace(const Subject& subject, Pixel pixel, const SampleChoice& choice);
+  PixelTrace trace(const Subject& subject, Pixel pixel, const SampleChoice& choice, std::uint32_t story_ray);
 
   /// All that is in work ends within a few hundred rays, and nothing more is made.
   void stop();

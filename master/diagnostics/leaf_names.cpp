@@ -21,7 +21,23 @@ std::size_t add_names(const Scene& scene, std::size_t number, const std::string&
   return next;
 }
 
+std::size_t add_signs(const Scene& scene, std::size_t number, bool subtracted, std::vector<bool>& leaves) {
+  const Node& node = scene.nodes[number];
+  if (std::holds_alternative<Solid>(node.content)) leaves.push_back(subtracted);
+  const auto* operation = std::get_if<Operation>(&node.content);
+  std::size_t next = number + 1;
+  for (std::uint32_t i = 0; operation && i < operation->children; ++i)
+    next = add_signs(scene, next, subtracted != (operation->op == CsgOp::subtract && i > 0), leaves);
+  return next;
+}
+
 }  // namespace
+
+std::vector<bool> subtracted_leaves(const Scene& scene) {
+  std::vector<bool> leaves;
+  add_signs(scene, 0, false, leaves);
+  return leaves;
+}
 
 std::vector<std::string> leaf_names(const Scene& scene) {
   std::vector<std::string> names;

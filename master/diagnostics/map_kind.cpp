@@ -49,7 +49,7 @@ constexpr MapKind maps[] = {
                float* into) { put_vector(p.surface ? p.surface->normal : nowhere, into); }},
     {.name = "normal-camera",
      .title = "Normal, camera",
-     .unit = "unit vector, the camera's right, up and forward",
+     .unit = "unit vector, the camera's right, up and forward; compatible: world axes",
      .help =
          "normal of the first surface in the camera's axes; compatible: by the original renderer's formula",
      .channels = camera_normal,
@@ -98,7 +98,7 @@ constexpr MapKind maps[] = {
     {.name = "cost",
      .title = "Cost",
      .unit = "seconds",
-     .help = "time on one thread; of a job: its tile's, over the tile's pixels",
+     .help = "processor time on one thread; of a job: its tile's, over the tile's pixels",
      .channels = cost,
      .source = MapSource::time,
      .put = [](const PixelFacts& p, const MapView&, float* into) { put_number(p.seconds, into); }},

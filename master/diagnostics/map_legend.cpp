@@ -67,17 +67,22 @@ class Legend {
 
   /// The highest value on top.
   void paint_bar() {
-    MapRange range = colors_.range.value_or(range_of(map_));
+    MapRange range = colors_.range.value_or(usual_range(map_, kind_));
     if (range.low > range.high) return;  // all is nothing
     const std::uint32_t height = picture_.size.height;
+    const std::uint32_t values = height < 100 * unit_ ? 2 : 5;
     for (std::uint32_t y = 0; y < height; ++y) {
       const double share = height > 1 ? 1 - static_cast<double>(y) / (height - 1) : 1;
       const auto value = static_cast<float>(range.low + share * (range.high - range.low));
       for (std::uint32_t x = 0; x < 12 * unit_; ++x)
         put(left_ + x, y, color_of(&value, kind_.scale, colors_.palette, range));
     }
-    write(text_of(range.high), unit_);
-    write(text_of(range.low), height - 8 * unit_);
+    // The colours of depths are no linear scale: so there are values on the way, too.
+    for (std::uint32_t i = 0; i < values; ++i) {
+      const double share = static_cast<double>(i) / (values - 1);
+      const std::uint32_t top = unit_ + static_cast<std::uint32_t>((1 - share) * (height - 9 * unit_));
+      write(text_of(range.low + share * (range.high - range.low)), top);
+    }
   }
 
   /// What a ball would look like.

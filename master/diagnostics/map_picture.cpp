@@ -113,6 +113,14 @@ MapRange range_of(const Map& map) {
   return range;
 }
 
+MapRange usual_range(const Map& map, const MapKind& kind) {
+  if (kind.source != MapSource::time || map.values.empty()) return range_of(map);
+  std::vector<float> sorted = map.values;  // times are finite
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t cut = sorted.size() / 100;
+  return {sorted[cut], sorted[sorted.size() - 1 - cut]};
+}
+
 MapColor color_of(const float* value, MapScale scale, MapPalette palette, const MapRange& range) {
   switch (scale) {
     case MapScale::depth:
@@ -131,7 +139,7 @@ Picture colored(const Map& map, const MapKind& kind, const MapColors& colors) {
   std::array<float, 256> linear;
   for (std::size_t byte = 0; byte < linear.size(); ++byte)
     linear[byte] = static_cast<float>(deterministic::pow(static_cast<double>(byte) / 255, 2.2));
-  const MapRange range = colors.range.value_or(range_of(map));
+  const MapRange range = colors.range.value_or(usual_range(map, kind));
   Picture picture{map.size, {}, {}};
   picture.rgb.reserve(map.values.size() / map.channels * 3);
   for (std::size_t i = 0; i < map.values.size(); i += map.channels)

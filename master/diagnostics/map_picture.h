@@ -24,12 +24,15 @@ struct MapRange {
   double low = 0, high = 0;
 };
 MapRange range_of(const Map& map);
+/// That of its colours when none is asked for: of times all but the lowest and highest hundredth, as a thread that had
+/// to wait once would make all others look alike; else all.
+MapRange usual_range(const Map& map, const MapKind& kind);
 
 /// How values become colours. Normals are RGB, facing the camera blue, and labels colours far apart, whatever
 /// the palette and the range.
 struct MapColors {
   MapPalette palette = MapPalette::original;
-  std::optional<MapRange> range;  // for two pictures to be compared; without it the map's own
+  std::optional<MapRange> range;  // for two pictures to be compared; without it the usual one
 };
 
 /// Bytes as the original renderer shows them, 0 to 255.

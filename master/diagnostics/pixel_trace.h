@@ -16,16 +16,19 @@ struct PixelTrace {
   Pixel pixel;
   struct Sample {
     TracedSample traced;
-    CsgStory story;  // of the primary ray
+    std::uint32_t story_ray = 0;  // which of its rays: numbers as in text_of(), parents before their children
+    CsgStory story;
   };
   std::vector<Sample> samples;
   LeafNames leaf_names;    // by leaf
   bool truncated = false;  // there were more rays than the limits allow
 };
 
-/// As traced_samples().
+/// As traced_samples(). The story is told of ray number story_ray; throws SettingsError when there is no such ray, or
+/// when another than the primary one is asked for of all samples.
 PixelTrace pixel_trace(const World& world, LeafNames leaf_names, const RenderSettings& settings, Pixel pixel,
-                       const SampleChoice& choice, const RecordLimits& limits = {});
+                       const SampleChoice& choice, std::uint32_t story_ray = 0,
+                       const RecordLimits& limits = {});
 
 /// An indented tree for each sample, a line for each ray and light; ends in a newline.
 std::string text_of(const PixelTrace& trace);

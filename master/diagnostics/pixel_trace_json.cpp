@@ -34,8 +34,12 @@ json end_of(const RayRecord& ray) {
   return ray.untraced.empty() ? "light" : "importance";
 }
 
-json json_of(const LightAtHit& light, const std::vector<std::string>& names) {
-  json object{{"light", light.light}, {"fate", name_of(light.fate)}, {"color", json_of(light.color)}};
+json json_of(const LightAtHit& light, double importance, const std::vector<std::string>& names) {
+  json object{{"light", light.light},
+              {"fate", name_of(light.fate)},
+              {"importance", importance},
+              {"color", json_of(light.color)},
+              {"contribution", json_of(light.color * importance)}};
   if (light.fate != LightFate::ambient) object["at"] = json_of(light.at);
   if (light.blocker)
     object["blocker"] = {{"leaf", light.blocker->leaf},
@@ -49,8 +53,8 @@ json json_of(const RayRecord& ray, const std::vector<std::string>& names) {
               {"depth", ray.depth},
               {"weight", ray.weight},
               {"importance", ray.importance},
-              {"origin", json_of(ray.origin)},
-              {"direction", json_of(ray.direction)},
+              {"origin", json_of(ray.path.origin)},
+              {"direction", json_of(ray.path.direction)},
               {"color", json_of(ray.color)},
               {"contribution", json_of(ray.color * ray.importance)},
               {"end", end_of(ray)},
@@ -67,9 +71,12 @@ json json_of(const RayRecord& ray, const std::vector<std::string>& names) {
                      {"normal", json_of(ray.hit->normal)},
                      {"surface_color", json_of(ray.hit->surface_color)},
                      {"entering", ray.hit->entering}};
-  for (const LightAtHit& light : ray.lights) object["lights"].push_back(json_of(light, names));
+  for (const LightAtHit& light : ray.lights)
+    object["lights"].push_back(json_of(light, ray.importance, names));
   for (const GlowOnRay& glow : ray.glows)
-    object["glows"].push_back({{"glow", glow.glow}, {"color", json_of(glow.color)}});
+    object["glows"].push_back({{"glow", glow.glow},
+                               {"color", json_of(glow.color)},
+                               {"contribution", json_of(glow.color * ray.importance)}});
   for (const RayRecord& followed : ray.followed) object["rays"].push_back(json_of(followed, names));
   for (const Untraced& u : ray.untraced)
     object["not_traced"].push_back(
@@ -83,18 +90,20 @@ json json_of(const RayRecord& ray, const std::vector<std::string>& names) {
 
 json to_json(const PixelTrace& trace) {
   json samples = json::array();
-  for (const auto& [traced, story] : trace.samples) {
+  for (const auto& [traced, story_ray, story] : trace.samples) {
     json leaves = json::array();
     for (const LeafStretches& leaf : story.leaves)
       leaves.push_back({{"leaf", leaf.leaf},
                         {"name", (*trace.leaf_names)[leaf.leaf]},
+                        {"subtracted", leaf.is_subtracted},
                         {"stretches", json_of(leaf.stretches)}});
-    samples.push_back({{"sample", traced.number ? json(*traced.number) : json("centre")},
-                       {"film", {traced.x, traced.y}},
-                       {"weight", traced.weight},
-                       {"color", json_of(traced.ray.color)},
-                       {"ray", json_of(traced.ray, *trace.leaf_names)},
-                       {"csg", {{"leaves", leaves}, {"material", json_of(story.material)}}}});
+    samples.push_back(
+        {{"sample", traced.number ? json(*traced.number) : json("centre")},
+         {"film", {traced.x, traced.y}},
+         {"weight", traced.weight},
+         {"color", json_of(traced.ray.color)},
+         {"ray", json_of(traced.ray, *trace.leaf_names)},
+         {"csg", {{"ray", story_ray}, {"leaves", leaves}, {"material", json_of(story.material)}}}});
   }
   return {{"pixel", {trace.pixel.x, trace.pixel.y}}, {"samples", samples}, {"truncated", trace.truncated}};
 }

@@ -37,7 +37,7 @@ Box around(const Vec3d& point) { return {point, point}; }
 
 /// Of all that has a place.
 Box bounds_of(const RayRecord& ray) {
-  Box box = around(ray.origin);
+  Box box = around(ray.path.origin);
   if (ray.hit) box = hull(box, around(ray.hit->point));
   for (const LightAtHit& light : ray.lights)
     if (light.fate == LightFate::reached || light.fate == LightFate::blocked)
@@ -77,14 +77,14 @@ class Drawing {
   std::string lines, marks;  // marks lie above lines
 
   void add(const RayRecord& ray) {
-    const Vec3d end =
-        ray.hit ? ray.hit->point : ray.origin + ray.direction * (reach_ / length(ray.direction));
+    const Vec3d end = ray.hit ? ray.hit->point
+                              : ray.path.origin + ray.path.direction * (reach_ / length(ray.path.direction));
     const double thickness = 1 + 2 * ray.importance;
-    line(ray.origin, end,
+    line(ray.path.origin, end,
          formatted("stroke=\"#d12f2f\" stroke-width=\"%.2f\"%s", thickness,
                    ray.hit ? "" : " stroke-dasharray=\"7 5\""));
     if (ray.kind == RayKind::primary)
-      mark(ray.origin, "r=\"6\" fill=\"#d12f2f\" stroke=\"#fff\" stroke-width=\"2\"", "camera");
+      mark(ray.path.origin, "r=\"6\" fill=\"#d12f2f\" stroke=\"#fff\" stroke-width=\"2\"", "camera");
     if (!ray.hit) return;
     mark(end, "r=\"3.5\" fill=\"#333\"", names_[ray.hit->leaf]);
     line(end, end + ray.hit->normal * (reach_ / 6), "stroke=\"#6b7a8f\" stroke-width=\"1.2\"");

@@ -40,10 +40,12 @@ class Writer {
     line(0, "pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y) +
                 (traced.number ? " sample " + std::to_string(*traced.number) : " centre") + " at film (" +
                 shown(traced.x) + ", " + shown(traced.y) + "): color " + shown(traced.ray.color));
+    next_ray_ = 0;
     add(traced.ray, 1);
-    line(1, "along the primary ray");
+    line(1, "along ray " + std::to_string(sample.story_ray));
     for (const LeafStretches& leaf : sample.story.leaves)
-      line(2, "in " + names_[leaf.leaf] + ": " + shown(leaf.stretches));
+      line(2, "in " + names_[leaf.leaf] + (leaf.is_subtracted ? " (subtracted)" : "") + ": " +
+                  shown(leaf.stretches));
     line(2, "in material: " + shown(sample.story.material));
   }
   std::string text;
@@ -54,18 +56,19 @@ class Writer {
   }
 
   void add(const RayRecord& ray, std::size_t level) {
-    std::string words = std::string(name_of(ray.kind)) + " ray from " + shown(ray.origin) + " weight " +
-                        shown(ray.weight) + " importance " + shown(ray.importance) + " adds " +
-                        shown(ray.color * ray.importance);
+    std::string words = "ray " + std::to_string(next_ray_++) + ", " + name_of(ray.kind) + ", from " +
+                        shown(ray.path.origin) + " weight " + shown(ray.weight) + " importance " +
+                        shown(ray.importance) + " adds " + shown(ray.color * ray.importance);
     if (ray.hit)
       line(level, words + ": " + (ray.hit->entering ? "enters " : "leaves ") + names_[ray.hit->leaf] +
                       " at " + shown(ray.hit->point) + " after " + shown(ray.hit->distance) + ", normal " +
                       shown(ray.hit->normal));
     else
-      line(level, words + ": missed, towards " + shown(ray.direction));
+      line(level, words + ": missed, towards " + shown(ray.path.direction));
     for (const GlowOnRay& glow : ray.glows)
-      line(level + 1, "through glow shell " + std::to_string(glow.glow) + " adds " + shown(glow.color));
-    for (const LightAtHit& light : ray.lights) add(light, level + 1);
+      line(level + 1,
+           "through glow shell " + std::to_string(glow.glow) + " adds " + shown(glow.color * ray.importance));
+    for (const LightAtHit& light : ray.lights) add(light, ray.importance, level + 1);
     for (const RayRecord& followed : ray.followed) add(followed, level + 1);
     for (const Untraced& untraced : ray.untraced)
       line(level + 1,
@@ -76,9 +79,9 @@ class Writer {
       line(level + 1, "no rays followed: depth " + std::to_string(ray.depth) + " is the last");
   }
 
-  void add(const LightAtHit& light, std::size_t level) {
+  void add(const LightAtHit& light, double importance, std::size_t level) {
     const std::string number = "light " + std::to_string(light.light);
-    const std::string adds = " adds " + shown(light.color);
+    const std::string adds = " adds " + shown(light.color * importance);
     switch (light.fate) {
       case LightFate::ambient:
         return line(level, "ambient " + number + adds);
@@ -95,6 +98,7 @@ class Writer {
   }
 
   const std::vector<std::string>& names_;
+  std::uint32_t next_ray_ = 0;  // of the sample
 };
 
 }  // namespace

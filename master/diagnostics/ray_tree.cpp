@@ -21,7 +21,7 @@ class Recorder : public IdleObserver {
     open_.back().is_traced = true;
     RayRecord& record = open_.back().record;
     record.kind = kind, record.depth = depth, record.importance = importance;
-    record.origin = ray.origin, record.direction = ray.direction;
+    record.path = ray;
     if (hit)
       record.hit = {
           hit->t * length(ray.direction), hit->point, hit->normal, hit->color, hit->leaf, hit->entering};

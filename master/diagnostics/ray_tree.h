@@ -54,8 +54,8 @@ struct RayRecord {
   std::uint32_t depth = 0;
   double weight = 1;      // of its colour in its parent's
   double importance = 1;  // of its colour in the sample's: the product of all weights
-  Vec3d origin{}, direction{};
-  Vec3d color{};  // the light along it: the background's if it hit nothing
+  Ray path{};             // where it ran
+  Vec3d color{};          // the light along it: the background's if it hit nothing
   std::optional<RayHit> hit;
   std::vector<LightAtHit> lights;
   std::vector<GlowOnRay> glows;

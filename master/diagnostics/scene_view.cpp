@@ -99,11 +99,13 @@ json scene_view(const ReadyScene& ready) {
   const World::Parts& world = ready.world().parts();
   const std::size_t shown = std::min(world.leaves.size(), most_solids_shown);
   const std::vector<Box> boxes = visible_boxes(world, shown);
+  const std::vector<bool> subtracted = subtracted_leaves(world.scene);
   json lights = json::array(), solids = json::array();
   for (const Light& light : world.scene.lights) lights.push_back(json_of_light(light));
   for (std::size_t leaf = 0; leaf < shown; ++leaf)
     solids.push_back({{"leaf", leaf},
                       {"name", ready.leaf_names()[leaf]},
+                      {"subtracted", subtracted[leaf]},
                       {"kind", kind_of(world.leaves[leaf].solid)},
                       {"color", json_of(world.surfaces[leaf].color)},
                       {"box", json_of_box(boxes[leaf])},

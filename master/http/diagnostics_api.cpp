@@ -107,7 +107,7 @@ std::uint32_t coordinate_in(const Call& call, const std::string& name) {
 PixelTrace trace_of(const Call& call, const Subject& subject) try {
   const Pixel pixel{coordinate_in(call, "x"), coordinate_in(call, "y")};
   const SampleChoice choice = sample_choice(text_in(call, "sample").value_or("0"), subject.settings);
-  return call.doors.diagnostics.trace(subject, pixel, choice);
+  return call.doors.diagnostics.trace(subject, pixel, choice, whole_in(call, "story").value_or(0));
 } catch (const SettingsError& error) {
   throw ApiError(400, error.what());
 }

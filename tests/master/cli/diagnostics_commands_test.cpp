@@ -78,7 +78,7 @@ TEST(Trace, PrintsATreeAndDrawsIt) {
   const ScratchFolder folder;
   const ProgramResult result = small("trace", {"--pixel", "32,24", "-o", folder / "a.svg"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("primary ray"), std::string::npos);
+  EXPECT_NE(result.out.find("ray 0, primary, "), std::string::npos);
   EXPECT_NE(content_of(folder / "a.svg").find("<svg "), std::string::npos);
 }
 

@@ -134,8 +134,8 @@ std::size_t rays_in(const std::vector<TracedSample>& samples) {
 
 /// The records of a are the first of b's.
 void expect_beginning(const RayRecord& a, const RayRecord& b) {
-  EXPECT_EQ(a.origin, b.origin);
-  EXPECT_EQ(a.direction, b.direction);
+  EXPECT_EQ(a.path.origin, b.path.origin);
+  EXPECT_EQ(a.path.direction, b.path.direction);
   EXPECT_EQ(a.hit.has_value(), b.hit.has_value());
   ASSERT_LE(a.lights.size(), b.lights.size());
   ASSERT_LE(a.followed.size(), b.followed.size());
@@ -175,7 +175,7 @@ TEST(RayTree, SamplesForWhichTheCameraHasNoRayAreLeftOut) {
         ++at_the_edge;
         const auto same = traced_samples(world, s, {i, 3}, *one.number).samples;
         ASSERT_EQ(same.size(), 1u);
-        EXPECT_EQ(same[0].ray.direction, one.ray.direction);
+        EXPECT_EQ(same[0].ray.path.direction, one.ray.path.direction);
       }
     EXPECT_GT(at_the_edge, 0u);
   }
@@ -233,17 +233,19 @@ TEST(RayTree, AStopIsHeardInTheMiddleOfASample) {
   EXPECT_LT(rays, 100'000u);
 }
 
+template <class Call>
+std::string complaint(Call&& call) {
+  try {
+    call();
+  } catch (const SettingsError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
 TEST(RayTree, WhatThePictureHasNotGotIsNamed) {
   const RenderSettings s = small_settings();
   const World world(random_scene(3));
-  const auto complaint = [&](const auto& call) -> std::string {
-    try {
-      call();
-    } catch (const SettingsError& error) {
-      return error.what();
-    }
-    return "";
-  };
   EXPECT_NE(complaint([&] {
               traced_samples(world, s, {side, 0}, EverySample{});
             }).find("23,23"),
@@ -259,7 +261,7 @@ TEST(CsgStory, TheMaterialBeginsOrEndsWhereThePrimaryRayHits) {
   for_each_traced_pixel([&](const World& world, const RenderSettings&, Pixel, const auto& rays) {
     if (rays.empty()) return;
     const RayRecord& ray = rays[0];
-    const CsgStory story = csg_story(world, {ray.origin, ray.direction});
+    const CsgStory story = csg_story(world, ray.path);
     if (!ray.hit) return;
     ++hits;
     ASSERT_FALSE(story.material.empty());
@@ -283,8 +285,23 @@ TEST(CsgStory, ABallWithAHole) {
   EXPECT_EQ(story.material, (std::vector<Stretch>{{4, 4.5}, {5.5, 6}}));
 }
 
+TEST(CsgStory, SaysWhatIsTakenAway) {
+  // a - (b - c): c is given back.
+  Scene scene;
+  scene.nodes = {{Operation{CsgOp::subtract, 2}, {}, {}, {}, {}, {}},
+                 {Sphere{}, {}, {}, {}, {}, "a"},
+                 {Operation{CsgOp::subtract, 2}, {}, {}, {}, {}, {}},
+                 {Sphere{}, scaling({0.5, 0.5, 0.5}), {}, {}, {}, "b"},
+                 {Sphere{}, scaling({0.25, 0.25, 0.25}), {}, {}, {}, "c"}};
+  const CsgStory story = csg_story(World(scene), {{0, 0, -5}, {0, 0, 1}});
+  ASSERT_EQ(story.leaves.size(), 3u);
+  EXPECT_FALSE(story.leaves[0].is_subtracted);
+  EXPECT_TRUE(story.leaves[1].is_subtracted);
+  EXPECT_FALSE(story.leaves[2].is_subtracted);
+}
+
 /// A mirror ball above a matte floor that it shadows.
-PixelTrace trace_of_a_ball() {
+PixelTrace trace_of_a_ball(const SampleChoice& choice = EverySample{}, std::uint32_t story_ray = 0) {
   Scene scene;
   Material mirror;
   mirror.specular = 0.9, mirror.diffuse = mirror.ambient = 0.05;
@@ -297,7 +314,33 @@ PixelTrace trace_of_a_ball() {
   const World world(scene);
   const RenderSettings s = small_settings();
   const auto names = std::make_shared<std::vector<std::string>>(leaf_names(scene));
-  return pixel_trace(world, names, s, {side / 2, side / 2}, EverySample{});
+  return pixel_trace(world, names, s, {side / 2, side / 2}, choice, story_ray);
+}
+
+TEST(PixelTrace, TellsTheStoryOfAnyRayOfASample) {
+  const PixelTrace trace = trace_of_a_ball(2u, 1);
+  ASSERT_EQ(trace.samples.size(), 1u);
+  const RayRecord& mirrored = trace.samples[0].traced.ray.followed.at(0);
+  const CsgStory& story = trace.samples[0].story;
+  ASSERT_TRUE(mirrored.hit);  // on the floor, from the ball's surface, which it is not inside
+  ASSERT_EQ(story.leaves.size(), 1u);
+  EXPECT_EQ(story.leaves[0].leaf, mirrored.hit->leaf);
+  EXPECT_NEAR(story.material.at(0).in, mirrored.hit->distance, 1e-12 * mirrored.hit->distance);
+  EXPECT_EQ(to_json(trace)["samples"][0]["csg"]["ray"], 1);
+  EXPECT_NE(text_of(trace).find("along ray 1"), std::string::npos);
+
+  EXPECT_NE(complaint([] { trace_of_a_ball(2u, 99); }).find("there is no ray 99"), std::string::npos);
+  EXPECT_NE(complaint([] { trace_of_a_ball(EverySample{}, 1); }).find("name the sample"), std::string::npos);
+}
+
+TEST(PixelTrace, WhatLightsAddIsPartOfWhatTheirRayAdds) {
+  const nlohmann::json ray = to_json(trace_of_a_ball(2u))["samples"][0]["ray"]["rays"][0];
+  double sum = 0;
+  for (const auto& light : ray["lights"]) sum += light["contribution"][0].get<double>();
+  for (const auto& followed : ray["rays"]) sum += followed["contribution"][0].get<double>();
+  EXPECT_GT(sum, 0);
+  EXPECT_LT(ray["importance"], 1);
+  EXPECT_NEAR(sum, ray["contribution"][0].get<double>(), 1e-15);
 }
 
 TEST(PixelTrace, AsJsonHasTheSameTree) {
@@ -316,8 +359,8 @@ TEST(PixelTrace, AsJsonHasTheSameTree) {
 TEST(PixelTrace, AsTextAndDrawingNamesWhatWasHit) {
   const PixelTrace trace = trace_of_a_ball();
   const std::string text = text_of(trace);
-  for (const char* words : {"pixel 12,12 sample 3", "  primary ray", "b<a>ll #0", "reflected ray",
-                            "ambient light 0", "in material: "})
+  for (const char* words : {"pixel 12,12 sample 3", "  ray 0, primary, from", "b<a>ll #0",
+                            "ray 1, reflected, from", "ambient light 0", "in material: "})
     EXPECT_NE(text.find(words), std::string::npos) << words << text;
   const std::string svg = svg_of(trace);
   for (const char* words : {"<svg ", "b&lt;a>ll #0", "light 1", "camera", "</svg>"})
