@@ -13,18 +13,45 @@ MapRequest essence_of(const MapRequest& request) {
   return essence;
 }
 
-/// The values of a pass of a tile in their travelling order; none when stopped.
-std::optional<std::vector<float>> pass_values(PixelMapper& mapper, const Tile& tile, int pass,
-                                              std::size_t channels, const Background::Stop& stop) {
-  std::vector<float> values(pixel_count(tile, pass) * channels);
-  float* value = values.data();
+/// The other maps that follow from the samples of one: where the primary rays end.
+std::vector<MapRequest> kin_of(const MapRequest& request) {
+  std::vector<MapRequest> kin;
+  if (request.kind->source != MapSource::surfaces) return kin;
+  for (const MapKind& kind : all_maps()) {
+    const MapRequest other = essence_of({&kind, request.reduction, request.compatible});
+    if (kind.source == MapSource::surfaces && !(other == request)) kin.push_back(other);
+  }
+  return kin;
+}
+
+std::uint64_t bytes_of(const RenderSettings& settings, const MapRequest& request) {
+  return std::uint64_t{settings.width} * settings.height * request.kind->channels.size() * sizeof(float);
+}
+
+/// The values of a pass of a tile for one map, in their travelling order.
+struct PassOfMap {
+  MapRequest request;
+  MapView view;
+  std::vector<float> values{};
+};
+
+/// Fills in the values of all maps from the same samples; false when stopped.
+bool trace_pass(PixelMapper& mapper, const Tile& tile, int pass, std::vector<PassOfMap>& maps,
+                const Background::Stop& stop) {
+  for (PassOfMap& map : maps) map.values.reserve(pixel_count(tile, pass) * map.request.kind->channels.size());
   bool stopped = false;
   for_each_pixel(tile, pass, [&](std::uint32_t x, std::uint32_t y) {
-    stopped = stopped || !mapper.put({x, y}, value, stop);
-    value += channels;
+    if (stopped) return;
+    const std::optional<PixelFacts> facts = mapper.facts({x, y}, stop);
+    stopped = !facts;
+    for (PassOfMap& map : maps) {
+      if (stopped) return;
+      const std::size_t place = map.values.size();
+      map.values.resize(place + map.request.kind->channels.size());
+      map.request.kind->put(*facts, map.view, &map.values[place]);
+    }
   });
-  if (stopped) return std::nullopt;
-  return values;
+  return !stopped;
 }
 
 template <class Thing>
@@ -66,26 +93,53 @@ void Diagnostics::stop() {
 std::shared_ptr<Diagnostics::InMaking<GrowingMap>> Diagnostics::map_in_making(const Subject& subject,
                                                                               const MapRequest& asked) {
   const MapRequest request = essence_of(asked);
-  const Size size = size_of(subject.settings);
-  const std::size_t channels = request.kind->channels.size();
-  const std::uint64_t bytes = std::uint64_t{size.width} * size.height * channels * sizeof(float);
-  return maps_.get({subject.scene_hash, subject.settings, request}, bytes, [&] {
-    const auto map = std::make_shared<GrowingMap>(size, channels);
-    // All tiles coarse first, as one sees a picture come.
-    const auto do_part = [this, subject, request, map, order = centre_first(size)](
-                             std::uint32_t part, const Background::Stop& stop) {
-      const auto pass = static_cast<int>(part / order.size());
-      const std::uint32_t tile = order[part % order.size()];
-      const auto ready = scene(subject);
-      PixelMapper mapper(ready->world(), subject.settings, request);
-      const auto values = pass_values(mapper, tile_at(size_of(subject.settings), tile), pass,
-                                      request.kind->channels.size(), stop);
-      if (values) map->put(tile, pass, *values);
-      return values.has_value();
-    };
-    return std::make_shared<InMaking<GrowingMap>>(
-        InMaking<GrowingMap>{map, background_.add({tile_count(size) * pass_count, do_part})});
+  const RenderSettings& settings = subject.settings;
+  bool is_new = false;
+  const auto map = maps_.get({subject.scene_hash, settings, request}, bytes_of(settings, request), [&] {
+    is_new = true;
+    return new_map(subject, request);
   });
+  if (!is_new) return map;
+  for (const MapRequest& other : kin_of(request))
+    maps_.offer({subject.scene_hash, settings, other}, bytes_of(settings, other),
+                [&] { return new_map(subject, other); });
+  return map;
+}
+
+std::shared_ptr<Diagnostics::InMaking<GrowingMap>> Diagnostics::new_map(const Subject& subject,
+                                                                        const MapRequest& request) {
+  const Size size = size_of(subject.settings);
+  const auto map = std::make_shared<GrowingMap>(size, request.kind->channels.size());
+  // All tiles coarse first, as one sees a picture come.
+  const auto do_part = [this, subject, request, map, order = centre_first(size)](
+                           std::uint32_t part, const Background::Stop& stop) {
+    return make_part_of_map(subject, request, *map,
+                            {order[part % order.size()], static_cast<int>(part / order.size())}, stop);
+  };
+  return std::make_shared<InMaking<GrowingMap>>(
+      InMaking<GrowingMap>{map, background_.add({tile_count(size) * pass_count, do_part})});
+}
+
+bool Diagnostics::make_part_of_map(const Subject& subject, const MapRequest& request, GrowingMap& map,
+                                   PassOfTile part, const Background::Stop& stop) {
+  const auto [tile, pass] = part;
+  if (map.has(tile, pass)) return true;  // it came with another one
+
+  const auto ready = scene(subject);
+  const World& world = ready->world();
+  std::vector<std::shared_ptr<GrowingMap>> targets;
+  std::vector<PassOfMap> maps{{request, view_of(world, subject.settings, request.compatible)}};
+  for (const MapRequest& other : kin_of(request)) {
+    const auto kin = maps_.find({subject.scene_hash, subject.settings, other});
+    if (!kin || kin->product->has(tile, pass)) continue;
+    targets.push_back(kin->product);
+    maps.push_back({other, view_of(world, subject.settings, other.compatible)});
+  }
+  PixelMapper mapper(world, subject.settings, request);
+  if (!trace_pass(mapper, tile_at(size_of(subject.settings), tile), pass, maps, stop)) return false;
+  map.put(tile, pass, maps.front().values);
+  for (std::size_t i = 0; i < targets.size(); ++i) targets[i]->put(tile, pass, maps[i + 1].values);
+  return true;
 }
 
 LayerNews Diagnostics::map_news(const Subject& subject, const MapRequest& request,

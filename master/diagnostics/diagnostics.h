@@ -2,6 +2,7 @@
 //
 // Everything follows from a scene and settings alone, so it is the same before, while and after a farm renders
 // them. Maps, statistics and clouds are made in the background; they are done when their questions find them so.
+// Maps that follow from the same samples come together, as far as there is room for what nobody asked for.
 // All calls are made from any thread; none but scene() and trace() takes long.
 #pragma once
 #include <memory>
@@ -100,12 +101,20 @@ class Diagnostics {
     Statistics total;
   };
 
+  struct PassOfTile {
+    std::uint32_t tile;
+    int pass;
+  };
+
   struct GrowingCloud {
     std::atomic<double> share{0};
     PlyFile file;  // when it is done
   };
 
   std::shared_ptr<InMaking<GrowingMap>> map_in_making(const Subject& subject, const MapRequest& request);
+  std::shared_ptr<InMaking<GrowingMap>> new_map(const Subject& subject, const MapRequest& request);
+  bool make_part_of_map(const Subject& subject, const MapRequest& request, GrowingMap& map, PassOfTile part,
+                        const Background::Stop& stop);
 
   std::atomic<bool> stopping_{false};
   WorldCache worlds_;

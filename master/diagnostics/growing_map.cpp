@@ -1,7 +1,6 @@
 #include "master/diagnostics/growing_map.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace rayfarm {
@@ -9,11 +8,16 @@ namespace rayfarm {
 GrowingMap::GrowingMap(Size size, std::size_t channels)
     : order_(centre_first(size)), map_{size, channels, {}}, done_(tile_count(size)) {}
 
+bool GrowingMap::has(std::uint32_t tile, int pass) const {
+  const std::lock_guard lock(mutex_);
+  return (done_[tile] >> pass & 1) != 0;
+}
+
 void GrowingMap::put(std::uint32_t tile, int pass, const std::vector<float>& values) {
   const std::lock_guard lock(mutex_);
+  if (done_[tile] >> pass & 1) return;
   const std::size_t width = map_.size.width, channels = map_.channels;
   if (map_.values.empty()) map_.values.resize(width * map_.size.height * channels);  // late: it may be big
-  assert(!(done_[tile] >> pass & 1));
   const float* value = values.data();
   for_each_pixel(tile_at(map_.size, tile), pass, [&](std::uint32_t x, std::uint32_t y) {
     std::copy_n(value, channels, &map_.values[(y * width + x) * channels]);

@@ -14,7 +14,8 @@ class GrowingMap {
  public:
   GrowingMap(Size size, std::size_t channels);
 
-  /// The values of the pass in the order of for_each_pixel. A pass that is there already must not come again.
+  bool has(std::uint32_t tile, int pass) const;
+  /// The values of the pass in the order of for_each_pixel. One that is there already is the same, and stays.
   void put(std::uint32_t tile, int pass, const std::vector<float>& values);
   /// As a LayerSource gives it; the state is made by others.
   LayerNews news(const std::vector<PassSet>& known, std::uint32_t most_tiles) const;

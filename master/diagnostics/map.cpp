@@ -32,16 +32,21 @@ PixelMapper::PixelMapper(const World& world, const RenderSettings& settings, con
   assert(request.kind->put && "the farm has the values of this map");
 }
 
-bool PixelMapper::put(Pixel pixel, float* into, const std::function<bool()>& stop) {
+std::optional<PixelFacts> PixelMapper::facts(Pixel pixel, const std::function<bool()>& stop) {
   // Where an adaptive sampler puts its samples depends on all that they show.
   const bool first_hits_do = request_.kind->source == MapSource::surfaces && !is_adaptive(settings_.sampler);
   tracer_.observer.begin_pixel();
   const double begin = thread_seconds();
-  if (!(first_hits_do ? trace_first_hits(pixel, stop) : trace_all(pixel, stop))) return false;
+  if (!(first_hits_do ? trace_first_hits(pixel, stop) : trace_all(pixel, stop))) return std::nullopt;
   PixelFacts facts = tracer_.observer.facts();
   facts.seconds = thread_seconds() - begin;
-  request_.kind->put(facts, view_, into);
-  return true;
+  return facts;
+}
+
+bool PixelMapper::put(Pixel pixel, float* into, const std::function<bool()>& stop) {
+  const std::optional<PixelFacts> known = facts(pixel, stop);
+  if (known) request_.kind->put(*known, view_, into);
+  return known.has_value();
 }
 
 bool PixelMapper::trace_all(Pixel pixel, const std::function<bool()>& stop) {

@@ -31,6 +31,8 @@ class PixelMapper {
   /// The kind must have values without a farm. World and settings must outlive the mapper.
   PixelMapper(const World& world, const RenderSettings& settings, const MapRequest& request);
 
+  /// What its samples say of the pixel; nothing when stop() said so.
+  std::optional<PixelFacts> facts(Pixel pixel, const std::function<bool()>& stop);
   /// Writes kind->channels.size() numbers; false, and nothing of use, when stop() said so.
   bool put(Pixel pixel, float* into, const std::function<bool()>& stop);
 

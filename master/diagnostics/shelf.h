@@ -1,5 +1,6 @@
 // Things that were made for somebody, kept for those who ask again, within bounds.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <list>
 #include <memory>
@@ -43,6 +44,22 @@ class Shelf {
     entries_.push_front({key, make(), bytes, now_()});
     bytes_ += bytes;
     return entries_.front().thing;
+  }
+
+  /// Has the thing too, as the first to go, if nothing must go for it: nobody has asked for it.
+  template <class Make>
+  void offer(const Key& key, std::uint64_t bytes, Make make) {
+    const std::lock_guard lock(mutex_);
+    if (bytes_ + bytes > limits_.bytes || entries_.size() >= limits_.things) return;
+    if (std::ranges::any_of(entries_, [&](const Entry& entry) { return entry.key == key; })) return;
+    entries_.push_back({key, make(), bytes, now_() - interest_lasts});
+    bytes_ += bytes;
+  }
+  /// Null when there is none. To look is not to ask.
+  std::shared_ptr<Thing> find(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find(entries_, key, &Entry::key);
+    return found == entries_.end() ? nullptr : found->thing;
   }
 
  private:

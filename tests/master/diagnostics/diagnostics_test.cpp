@@ -77,6 +77,34 @@ TEST_F(MadeInTheBackground, MapsThatCannotDifferAreMadeOnce) {
   EXPECT_EQ(work(), 4 * 4);
 }
 
+TEST_F(MadeInTheBackground, MapsOfTheSameSamplesComeTogether) {
+  const MapRequest asked{map_named("depth"), Reduction::mean};
+  diagnostics.map(subject(), asked);
+  work();
+  for (const MapKind& kind : all_maps()) {
+    if (kind.source == MapSource::farm) continue;
+    const LayerNews news = diagnostics.map_news(subject(), {&kind, Reduction::mean}, {}, 100);
+    EXPECT_EQ(news.tiles.size(), kind.source == MapSource::surfaces ? 4u : 0u) << kind.name;
+    for (const TileNews& tile : news.tiles) EXPECT_EQ(tile.passes, all_passes) << kind.name;
+  }
+  const LayerNews other = diagnostics.map_news(subject(), {map_named("depth"), Reduction::closest}, {}, 100);
+  EXPECT_TRUE(other.tiles.empty());
+}
+
+TEST_F(MadeInTheBackground, MapsThatAreAskedForInTurnsAreTheSame) {
+  const Subject s = subject();
+  const std::array<MapRequest, 2> requests{{{map_named("depth")}, {map_named("normal")}}};
+  for (int i = 0; i < 40; ++i) {
+    diagnostics.map(s, requests[static_cast<std::size_t>(i % 2)]);
+    diagnostics.work_once();
+  }
+  for (const MapRequest& request : requests) {
+    const auto expected = map_of(World(random_scene(3)), s.settings, request, 1, never, unheard);
+    ASSERT_TRUE(diagnostics.map(s, request).thing) << request.kind->name;
+    EXPECT_EQ(diagnostics.map(s, request).thing->values, expected->values) << request.kind->name;
+  }
+}
+
 TEST_F(MadeInTheBackground, StatisticsAreThoseThatAreMadeAtOnce) {
   const Subject s = subject();
   EXPECT_EQ(diagnostics.statistics(s).thing, nullptr);

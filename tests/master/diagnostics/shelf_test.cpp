@@ -68,6 +68,18 @@ TEST_F(ShelfOfLetters, TakesOneThingHoweverBig) {
   EXPECT_EQ(made, "ab");
 }
 
+TEST_F(ShelfOfLetters, WhatIsOfferedGoesFirstAndTakesNobodysPlace) {
+  const auto offer = [&](char key) { shelf.offer(key, 4, [&] { return std::make_shared<char>(key); }); };
+  get('a', 4);
+  offer('b'), offer('c');
+  EXPECT_EQ(*shelf.find('b'), 'b');
+  EXPECT_EQ(shelf.find('c'), nullptr);
+  get('d', 4);  // at once: nobody has asked for b
+  EXPECT_EQ(shelf.find('b'), nullptr);
+  EXPECT_EQ(*shelf.find('a'), 'a');
+  EXPECT_EQ(made, "ad");
+}
+
 TEST_F(ShelfOfLetters, WhatCouldNotBeMadeIsNotThere) {
   EXPECT_THROW(shelf.get('a', 9, []() -> std::shared_ptr<char> { throw std::bad_alloc(); }), std::bad_alloc);
   get('a', 9);
