@@ -226,6 +226,29 @@ describe("the span chart", () => {
     await bars.first().focus();
     await expect.poll(() => painted([0x2f, 0xb8, 0xff])).toBeGreaterThan(before + 20);
   });
+
+  it("is along the ray that is chosen, and is named after it", async () => {
+    await probe(ball);
+    const heading = page.locator(".rays-spans h3");
+    expect(await heading.innerText()).toBe("Solids along the primary ray of sample 0");
+    await page.getByRole("treeitem").filter({ hasText: "reflected ray → plane #1" }).click();
+    await expect.poll(() => heading.innerText()).toBe("Solids along the reflected ray → plane #1 of sample 0");
+    const query = `x=${ball.x}&y=${ball.y}&sample=0`;
+    const [primary, reflected] = await Promise.all(
+      ["", "&story=1"].map(async (story) => {
+        const response = await fetch(`${farm.url}/api/v1/jobs/${job}/trace?${query}${story}`);
+        return ((await response.json()) as Trace).samples[0]!.csg;
+      }),
+    );
+    expect(reflected).not.toEqual(primary);
+    const all = [...reflected!.leaves.flatMap((leaf) => leaf.stretches), ...reflected!.material];
+    expect(await page.locator(".rays-spans g.span").count()).toBe(all.length);
+    const view = async () => (await page.locator(".rays-view canvas").screenshot()).toString("base64");
+    const before = await view();
+    await page.locator(".rays-spans g.span").first().focus(); // its end is marked on the ray
+    await expect.poll(async () => (await view()) !== before).toBe(true);
+    await screenshot(page, "rays-reflected");
+  });
 });
 
 describe("a probed pixel", () => {

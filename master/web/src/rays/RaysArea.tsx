@@ -13,6 +13,7 @@ import { followScene, landmarksOf, scene, sceneError } from "./scene";
 import { segmentsShown } from "./segments_shown";
 import { rayCount } from "./selection";
 import { SpanChart } from "./SpanChart";
+import { followStory } from "./story";
 import { subject } from "./subject";
 import { Toolbar } from "./Toolbar";
 import "./rays.css";
@@ -33,7 +34,7 @@ function followViews(): () => void {
 
 export function RaysArea() {
   useEffect(() => {
-    const ends = [followScene(), followProbe(), followCloud(), followViews()];
+    const ends = [followScene(), followProbe(), followStory(), followCloud(), followViews()];
     return () => ends.forEach((end) => end());
   }, []);
   const pixel = answer.value?.question.pixel;

@@ -1,9 +1,11 @@
 import { plain as short } from "../picture/format";
 import { cssOf } from "./color";
 import { scene } from "./scene";
-import { sampleShown, spanMark } from "./selection";
+import { nameOf } from "./record";
+import { spanMark } from "./selection";
 import { chartOf, type Bar, type Row } from "./spans";
-import type { TracedRay, TracedSample } from "./trace";
+import { story, storyError, type Story } from "./story";
+import type { CsgStory, TracedRay } from "./trace";
 import { along, unit } from "./vec";
 
 const rowHeight = 18;
@@ -66,9 +68,9 @@ function Bars({ row, index, ray }: { row: Row; index: number; ray: TracedRay }) 
   );
 }
 
-function Chart({ sample }: { sample: TracedSample }) {
-  const hit = sample.ray.hit?.distance ?? null;
-  const chart = chartOf(sample.csg, hit);
+function Chart({ ray, csg }: { ray: TracedRay; csg: CsgStory }) {
+  const hit = ray.hit?.distance ?? null;
+  const chart = chartOf(csg, hit);
   const share = (t: number) => (t - chart.from) / (chart.to - chart.from);
   const height = chart.rows.length * rowHeight;
   return (
@@ -90,7 +92,7 @@ function Chart({ sample }: { sample: TracedSample }) {
           </g>
         ))}
         {chart.rows.map((row, i) => (
-          <Bars key={row.leaf ?? "material"} row={row} index={i} ray={sample.ray} />
+          <Bars key={row.leaf ?? "material"} row={row} index={i} ray={ray} />
         ))}
         <line class="rule" x1="0" x2="100%" y1={height - rowHeight} y2={height - rowHeight} />
         {hit !== null && <line class="hit" x1={at(share(hit))} x2={at(share(hit))} y1="-2" y2={height} />}
@@ -99,15 +101,28 @@ function Chart({ sample }: { sample: TracedSample }) {
   );
 }
 
-/// Where the sample's primary ray is inside each leaf, and inside what the set operations make of them.
+function titleOf({ entry, sample }: Story): string {
+  const of = sample.sample === "centre" ? "" : ` of sample ${sample.sample}`;
+  return `Solids along the ${entry.parent === null ? "primary ray" : nameOf(entry)}${of}`;
+}
+
+/// Where the chosen ray is inside each leaf, and inside what the set operations make of them.
 export function SpanChart() {
-  const sample = sampleShown.value;
-  if (!sample) return <section class="rays-spans" aria-label="Set operations along the primary ray" />;
-  const empty = sample.csg.leaves.length === 0;
+  const told = story.value;
   return (
-    <section class="rays-spans" aria-label="Set operations along the primary ray">
-      <h3>Solids along the primary ray{sample.sample === "centre" ? "" : ` of sample ${sample.sample}`}</h3>
-      {empty ? <p class="quiet">It passes through none.</p> : <Chart sample={sample} />}
+    <section class="rays-spans" aria-label="Set operations along the ray" data-ray={told?.entry.id}>
+      {told && <h3>{titleOf(told)}</h3>}
+      {told &&
+        (told.csg.leaves.length === 0 ? (
+          <p class="quiet">It passes through none.</p>
+        ) : (
+          <Chart ray={told.entry.ray} csg={told.csg} />
+        ))}
+      {storyError.value && (
+        <p class="bad" role="alert">
+          Solids along the ray: {storyError}
+        </p>
+      )}
     </section>
   );
 }

@@ -102,6 +102,18 @@ export function entriesOf(trace: PixelTrace): Entry[] {
   return entries;
 }
 
+/// Of a ray below the primary ray of its sample: its place in depth-first order, a parent before its children, without
+/// rays to lights; -1 when it is none of them.
+export function rayNumberOf(primary: TracedRay, ray: TracedRay): number {
+  const rays: TracedRay[] = [];
+  const append = (next: TracedRay): void => {
+    rays.push(next);
+    next.rays.forEach(append);
+  };
+  append(primary);
+  return rays.indexOf(ray);
+}
+
 export const kindWords: Record<RayKind, string> = {
   primary: "camera ray",
   reflected: "reflected ray",
