@@ -148,6 +148,17 @@ describe("the 3D view", () => {
     await expect.poll(() => painted(red)).toBeLessThan(across / 4);
   });
 
+  it("marks what set operations take away, and says so", async () => {
+    const optics = await farm.render("optics", ...settings);
+    await showLayer(page, optics);
+    await page.getByRole("button", { name: "Solids", exact: true }).click();
+    await rays().getByText("what is taken away transparent").waitFor();
+    await rays().and(page.locator('[data-ready="true"]')).waitFor();
+    await nextFrame(page);
+    await screenshot(page, "rays-subtracted");
+    await page.getByRole("button", { name: "Solids", exact: true }).click();
+  });
+
   it("names the ray that is pointed at", async () => {
     await probe(ball);
     const box = (await page.locator(".rays-view canvas").boundingBox())!;

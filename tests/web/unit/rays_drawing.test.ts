@@ -47,6 +47,13 @@ describe("the drawing of the rays", () => {
     expect(svg).toContain('fill="rgb(255 0 0)"');
   });
 
+  it("dashes the box of a solid that is taken away", () => {
+    const solids = scene.solids.map((solid) => ({ ...solid, subtracted: true }));
+    const dashed = svgOf({ ...drawing, scene: { ...scene, solids }, segments: [] });
+    expect(dashed.match(/stroke="rgb\(0 255 0\)"[^>]*stroke-dasharray/g)).toHaveLength(12);
+    expect(svgOf({ ...drawing, segments: [] })).not.toContain("stroke-dasharray");
+  });
+
   it("marks the outliers, below the rays", () => {
     const outliers = segments.slice(0, 2);
     const marked = svgOf({ ...drawing, outliers });

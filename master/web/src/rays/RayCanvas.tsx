@@ -155,7 +155,7 @@ export function RayCanvas() {
         )}
         {answer.value?.trace.truncated && <p class="rays-note">Only the first 20 000 rays were recorded.</p>}
         {shown.preview.value && scene.value && (
-          <p class="rays-note">Each solid by itself: set operations are not applied.</p>
+          <p class="rays-note">Each solid by itself, what is taken away transparent: set operations are not applied.</p>
         )}
       </div>
       <Tip />

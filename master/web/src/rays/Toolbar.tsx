@@ -191,7 +191,7 @@ export function Toolbar() {
           title={`Among all samples of the pixel those that stand out: ${outlierRule}`}
         />
         <i />
-        <Toggle of={shown.boxes} name="Boxes" title="Bounding boxes in the solids' colours (B)" />
+        <Toggle of={shown.boxes} name="Boxes" title="Bounding boxes in the solids' colours, dashed where a solid is taken away (B)" />
         <Toggle of={filled} name="Filled" title="Boxes filled instead of wire" />
         <Toggle of={shown.preview} name="Solids" title="Each solid by itself, without the set operations" />
         <Toggle of={shown.cloud} name="Cloud" title="Point cloud of the visible surfaces (K)" />

@@ -53,7 +53,8 @@ export function svgOf(drawing: Drawing): string {
     const edges = solid.box ? edgesOf(solid.box) : [];
     return edges.flatMap(({ from, to }) => {
       const seen = projector.segment(from, to);
-      return seen ? [line(seen, `stroke="${cssOf(solid.color)}" stroke-opacity="0.7"`)] : [];
+      const dash = solid.subtracted ? ` stroke-dasharray="5 5"` : "";
+      return seen ? [line(seen, `stroke="${cssOf(solid.color)}" stroke-opacity="0.7"${dash}`)] : [];
     });
   });
   const marks = drawing.outliers.flatMap((segment) => {

@@ -12,6 +12,7 @@ import { type Box, boxAround, centreOf, diagonalOf, edgesOf, lengthOf, minus } f
 export interface SolidView {
   leaf: number;
   name: string;
+  subtracted: boolean; // from others: it is where they are not
   kind: string; // "sphere", "cube", ...
   color: Vec3; // linear
   box: Box | null; // null: endless

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import type { Vec3 } from "../../app/types";
 import type { SolidView } from "../scene";
-import { along, type Box, centreOf, cross, diagonalOf, edgesOf, minus, times, unit } from "../vec";
+import { along, between, type Box, centreOf, cross, diagonalOf, edgesOf, minus, times, unit } from "../vec";
 
 /// Of world_from_local.
 function matrixOf(rows: readonly number[]): THREE.Matrix4 {
@@ -66,13 +66,23 @@ function gridOf(solid: SolidView, box: Box): Vec3[] {
   return Array.from({ length: cells + 1 }, (_, i) => [at(i, 0), at(i, cells), at(0, i), at(cells, i)]).flat();
 }
 
-/// Lines in the solids' colours: the boxes, and a grid for what is endless.
+const dashes = 8; // of an edge
+
+/// The ends of the pieces of a line, one after another.
+const dashed = (from: Vec3, to: Vec3): Vec3[] =>
+  Array.from({ length: 2 * dashes }, (_, i) => between(from, to, i / (2 * dashes - 1)));
+
+function boxLines(solid: SolidView, box: Box): Vec3[] {
+  return edgesOf(box).flatMap(({ from, to }) => (solid.subtracted ? dashed(from, to) : [from, to]));
+}
+
+/// Lines in the solids' colours: the boxes, dashed where a solid is taken away, and a grid for what is endless.
 export function wireframes(solids: readonly SolidView[], box: Box): THREE.LineSegments {
   const positions: number[] = [];
   const colors: number[] = [];
   for (const solid of solids) {
     const points = solid.box
-      ? edgesOf(solid.box).flatMap(({ from, to }) => [from, to])
+      ? boxLines(solid, solid.box)
       : solid.kind === "plane"
         ? gridOf(solid, box)
         : [];
@@ -182,27 +192,31 @@ function limitsOf(solid: SolidView, world: THREE.Matrix4, box: Box): [number, nu
   return [z_min ?? Math.min(...reach), z_max ?? Math.max(...reach)];
 }
 
+const seeThrough = { transparent: true, opacity: 0.25, depthWrite: false };
+
 const detailOf = (count: number): number => (count > 4000 ? 6 : count > 400 ? 10 : 24);
 
-/// Each solid by itself: what the set operations take away is still there.
+/// Each solid by itself: what the set operations take away is there too, but transparent.
 export function preview(solids: readonly SolidView[], box: Box): THREE.Group {
   const shapes = new Map<
     string,
-    { make: Instance["make"]; items: { place: THREE.Matrix4; solid: SolidView }[] }
+    { make: Instance["make"]; subtracted: boolean; items: { place: THREE.Matrix4; solid: SolidView }[] }
   >();
   for (const solid of solids) {
     const instance = instanceOf(solid, box, detailOf(solids.length));
     if (!instance) continue;
     const { shape, make, place } = instance;
-    const kept = shapes.get(shape) ?? { make, items: [] };
+    const { subtracted } = solid;
+    const alike = `${shape} ${subtracted}`;
+    const kept = shapes.get(alike) ?? { make, subtracted, items: [] };
     kept.items.push({ place, solid });
-    shapes.set(shape, kept);
+    shapes.set(alike, kept);
   }
   const group = new THREE.Group();
-  for (const { make, items } of shapes.values()) {
+  for (const { make, subtracted, items } of shapes.values()) {
     const mesh = new THREE.InstancedMesh(
       make(),
-      new THREE.MeshLambertMaterial({ side: THREE.DoubleSide }),
+      new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, ...(subtracted ? seeThrough : {}) }),
       items.length,
     );
     items.forEach(({ place, solid }, i) => {
