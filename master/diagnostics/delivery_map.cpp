@@ -1,5 +1,7 @@
 #include "master/diagnostics/delivery_map.h"
 
+#include <cmath>
+
 #include "master/diagnostics/growing_map.h"
 
 namespace rayfarm {
@@ -74,7 +76,7 @@ LayerNews delivery_news(const Deliveries& deliveries, Size size, const MapKind& 
 }
 
 Map delivery_map(const Deliveries& deliveries, Size size, const MapKind& kind) {
-  Map map{size, 1, std::vector<float>(std::size_t{size.width} * size.height)};
+  Map map{size, 1, std::vector<float>(std::size_t{size.width} * size.height, INFINITY)};
   for (std::uint32_t number = 0; number < deliveries.tiles.size(); ++number) {
     const Tile area = tile_at(size, number);
     for_each_pass(deliveries.tiles[number], area, kind, [&](int pass, float value) {

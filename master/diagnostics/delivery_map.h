@@ -19,7 +19,7 @@ bool is_of_deliveries(const MapKind& kind);
 LayerNews delivery_news(const Deliveries& deliveries, Size size, const MapKind& kind,
                         const std::vector<std::uint32_t>& order, const std::vector<PassSet>& known,
                         std::uint32_t most_tiles);
-/// Of all pixels; those not there yet are 0.
+/// Of all pixels; infinite where nobody has delivered yet.
 Map delivery_map(const Deliveries& deliveries, Size size, const MapKind& kind);
 
 }  // namespace rayfarm

@@ -157,6 +157,12 @@ Made<Map> Diagnostics::map(const Subject& subject, const MapRequest& request) {
   return made(background_.ask(map->task), std::shared_ptr<const Map>(map->product, &map->product->whole()));
 }
 
+Map Diagnostics::map_so_far(const Subject& subject, const MapRequest& request) {
+  const auto map = map_in_making(subject, request);
+  background_.ask(map->task);
+  return map->product->so_far();
+}
+
 // Statistics. ----------------------------------------------------------------------------------------------
 
 Made<Statistics> Diagnostics::statistics(const Subject& subject) {

@@ -62,6 +62,8 @@ class Diagnostics {
   LayerNews map_news(const Subject& subject, const MapRequest& request, const std::vector<PassSet>& known,
                      std::uint32_t most_tiles);
   Made<Map> map(const Subject& subject, const MapRequest& request);
+  /// With what is there of it, as fill() spreads it; infinite where nothing is.
+  Map map_so_far(const Subject& subject, const MapRequest& request);
   /// Throws TooMuchAsked.
   Made<Statistics> statistics(const Subject& subject);
   /// Throws TooMuchAsked.

@@ -28,6 +28,21 @@ void GrowingMap::put(std::uint32_t tile, int pass, const std::vector<float>& val
   widen(range_, values);
 }
 
+Map GrowingMap::so_far() const {
+  const std::lock_guard lock(mutex_);
+  Map map{map_.size, map_.channels, {}};
+  map.values.assign(std::size_t{map.size.width} * map.size.height * map.channels, INFINITY);
+  for (std::uint32_t number = 0; number < done_.size(); ++number)
+    for (int pass = 0; pass < pass_count; ++pass) {
+      if (!(done_[number] >> pass & 1)) continue;
+      const Tile tile = tile_at(map.size, number);
+      for_each_pixel(tile, pass, [&](std::uint32_t x, std::uint32_t y) {
+        fill(map, tile, pass, {x, y}, &map_.values[(std::size_t{y} * map.size.width + x) * map.channels]);
+      });
+    }
+  return map;
+}
+
 LayerNews GrowingMap::news(const std::vector<PassSet>& known, std::uint32_t most_tiles) const {
   const std::lock_guard lock(mutex_);
   const Size size = map_.size;

@@ -19,6 +19,8 @@ class GrowingMap {
   void put(std::uint32_t tile, int pass, const std::vector<float>& values);
   /// As a LayerSource gives it; the state is made by others.
   LayerNews news(const std::vector<PassSet>& known, std::uint32_t most_tiles) const;
+  /// What is there, as fill() spreads it; infinite where nothing is.
+  Map so_far() const;
   /// Once all passes of all tiles are there it no longer changes.
   const Map& whole() const { return map_; }
 

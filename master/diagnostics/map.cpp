@@ -1,8 +1,9 @@
 #include "master/diagnostics/map.h"
 
 #include <time.h>
-#include <cassert>
 
+#include <algorithm>
+#include <cassert>
 #include <mutex>
 
 #include "common/work/each_tile.h"
@@ -18,6 +19,14 @@ double thread_seconds() {
 }
 
 }  // namespace
+
+void fill(Map& map, const Tile& tile, int pass, Pixel pixel, const float* value) {
+  const std::uint32_t stride = pass_stride[static_cast<std::size_t>(pass)];
+  const std::uint32_t x1 = std::min(pixel.x + stride, tile.x1), y1 = std::min(pixel.y + stride, tile.y1);
+  for (std::uint32_t y = pixel.y; y < y1; ++y)
+    for (std::uint32_t x = pixel.x; x < x1; ++x)
+      std::copy_n(value, map.channels, &map.values[(std::size_t{y} * map.size.width + x) * map.channels]);
+}
 
 MapView view_of(const World& world, const RenderSettings& settings, bool compatible) {
   const CameraRays camera(world.scene().camera, {settings.width, settings.height});

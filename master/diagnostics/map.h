@@ -23,6 +23,9 @@ struct Map {
   std::vector<float> values;  // row-major, `channels` a pixel; infinite where the pixel shows nothing
 };
 
+/// Puts the value of a pass's pixel into the square that it stands for until finer passes of the tile come.
+void fill(Map& map, const Tile& tile, int pass, Pixel pixel, const float* value);
+
 MapView view_of(const World& world, const RenderSettings& settings, bool compatible);
 
 /// The values of one pixel after another, in one thread. Only what the map asks for is traced.

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace rayfarm {
 namespace {
@@ -59,6 +61,22 @@ TEST(GrowingMap, ATileIsAllItsPixelsThoseNotThereYet0) {
     for (std::uint32_t x = tile.x0; x < tile.x1; ++x, i += 2)
       EXPECT_EQ(news.values[i], x % 4 == 0 && y % 4 == 0 ? static_cast<float>(x) + 1 : 0) << x << "," << y;
   EXPECT_EQ(i, news.values.size());
+}
+
+TEST(GrowingMap, SoFarCoarserValuesFillTheSquaresOfThoseNotThereYet) {
+  GrowingMap map({70, 64}, 1);
+  std::vector<float> values(pixel_count(tile_at({70, 64}, 0), 0));
+  std::iota(values.begin(), values.end(), 0.0f);
+  map.put(0, 0, values);
+  const Map coarse = map.so_far();
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 70; ++x)
+      ASSERT_EQ(coarse.values[y * 70 + x], x < 64 ? static_cast<float>(y / 8 * 8 + x / 8) : INFINITY);
+  map.put(0, 1, std::vector<float>(pixel_count(tile_at({70, 64}, 0), 1), -1));
+  const Map finer = map.so_far();
+  EXPECT_EQ(finer.values[8 * 70 + 8], 9);
+  EXPECT_EQ(finer.values[8 * 70 + 12], -1);
+  EXPECT_EQ(finer.values[15 * 70 + 15], -1);
 }
 
 TEST(GrowingMap, TheRangeIsOfTheFiniteValuesSoFar) {
