@@ -5,6 +5,7 @@
 #include <asio/post.hpp>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "common/daemon/command_line.h"
@@ -37,6 +38,13 @@ struct Arguments {
   bool insecure = false;
 };
 
+void expect_distinct_names(const std::vector<std::string>& targets) {
+  std::set<std::string> names;
+  for (const std::string& target : targets)
+    if (const std::string name = target.substr(0, target.find('=')); !names.insert(name).second)
+      throw CLI::ValidationError("--dial", "two workers are named " + name + "; give each a name of its own");
+}
+
 void declare(CLI::App& app, Arguments& arguments) {
   declare_common_options(app, arguments.insecure, examples);
   app.add_option("--state", arguments.state,
@@ -54,6 +62,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--dial", arguments.dial, "A worker that waits with --listen; may be repeated")
       ->type_name("NAME=HOST[:PORT]")
       ->allow_extra_args(false);
+  app.final_callback([&arguments] { expect_distinct_names(arguments.dial); });
 }
 
 /// A bad one is named; the others are dialled.
@@ -85,6 +94,7 @@ void serve(const Arguments& arguments) {
       [&](const std::string& target) { sessions.dial(parse_dial_target(target)); },
       [&] { return sessions.dialling(); },
       [&](std::uint64_t after) { return farm.log().after(after); },
+      [&](const std::string& name) { return sessions.stop_dialling(name); },
   };
   const AppFiles app;
   const SceneLibrary scenes;

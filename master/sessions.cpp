@@ -50,7 +50,9 @@ struct Sessions::Session {
 
 struct Sessions::Dialled {
   DialTarget target;
-  std::string fault;  // of the last try
+  asio::steady_timer pause;  // between two tries
+  std::string fault{};       // of the last try
+  bool is_wanted = true;     // else it goes when its try has ended
 };
 
 Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Security security,
@@ -134,29 +136,47 @@ asio::awaitable<void> Sessions::wait_until_stopping() {
 }
 
 void Sessions::dial(DialTarget target) {
-  const auto is_same = [&](const Dialled& d) {
-    return d.target.name == target.name && d.target.address == target.address;
-  };
-  if (std::ranges::any_of(dialled_, is_same)) return;
-  Dialled& dialled = dialled_.emplace_back();
-  dialled.target = std::move(target);
+  expect_free(target.name);
+  const auto dialled = dialled_.insert(dialled_.end(), {std::move(target), asio::steady_timer(io_)});
   asio::co_spawn(io_, keep_dialled(dialled), asio::detached);
+}
+
+void Sessions::expect_free(const std::string& name) const {
+  for (const Dialled& dialled : dialled_)
+    if (dialled.is_wanted && dialled.target.name == name)
+      throw NameInUse("\"" + name + "\" is dialled already, at " + text_of(dialled.target.address) +
+                      ": stop that first (DELETE /api/v1/workers/dial/" + name + "), or choose another name");
+  farm_.apply([&](Farm& farm, FarmTime) {
+    for (const WorkerView& worker : farm.workers())
+      if (worker.info.name == name)
+        throw NameInUse("a worker \"" + name + "\" is here already; dial the new one by another name");
+    if (const auto objection = farm.objection_to(name)) throw NameInUse(*objection);
+  });
+}
+
+bool Sessions::stop_dialling(const std::string& name) {
+  const auto is_meant = [&](const Dialled& d) { return d.is_wanted && d.target.name == name; };
+  const auto dialled = std::ranges::find_if(dialled_, is_meant);
+  if (dialled == dialled_.end()) return false;
+  dialled->is_wanted = false;
+  dialled->pause.cancel();
+  return true;
 }
 
 std::vector<Dialling> Sessions::dialling() const {
   std::vector<Dialling> all;
   for (const Dialled& dialled : dialled_) {
     const auto is_reached = [&](const Session* s) { return s->dialled == &dialled && s->worker; };
-    if (std::ranges::any_of(sessions_, is_reached)) continue;
+    if (!dialled.is_wanted || std::ranges::any_of(sessions_, is_reached)) continue;
     all.push_back({dialled.target.name, text_of(dialled.target.address), dialled.fault});
   }
   return all;
 }
 
-asio::awaitable<void> Sessions::keep_dialled(Dialled& dialled) {
+asio::awaitable<void> Sessions::keep_dialled(std::list<Dialled>::iterator place) {
+  Dialled& dialled = *place;
   Backoff backoff(times_.backoff, std::random_device{}());
-  asio::steady_timer timer(io_);
-  while (!stopping_) {
+  while (!stopping_ && dialled.is_wanted) {
     const auto begun = std::chrono::steady_clock::now();
     auto attempt = try_target(dialled);
     const std::string fault = co_await std::move(attempt);
@@ -164,12 +184,15 @@ asio::awaitable<void> Sessions::keep_dialled(Dialled& dialled) {
     const bool lasted = std::chrono::steady_clock::now() - begun > times_.backoff.longest;
     if (fault.empty() && lasted) backoff.reset();
     const std::string& name = dialled.target.name;
+    if (!dialled.is_wanted) break;
     if (!fault.empty() && fault != dialled.fault)
       farm_.note({true, "worker \"" + name + "\": " + fault + "; trying again", name});
     dialled.fault = fault;
-    timer.expires_after(backoff.next());
-    co_await timer.async_wait(asio::use_awaitable);
+    dialled.pause.expires_after(backoff.next());
+    asio::error_code woken;
+    co_await dialled.pause.async_wait(asio::redirect_error(asio::use_awaitable, woken));
   }
+  dialled_.erase(place);
 }
 
 /// Why there was no worker; empty after one that there was has gone.
@@ -248,6 +271,7 @@ void Sessions::refuse(Session& session, const std::string& objection) {
 }
 
 void Sessions::admit(Session& session, const Hello& hello) {
+  if (session.dialled && !session.dialled->is_wanted) return refuse(session, "it is no longer dialled");
   const std::string& name = session.dialled ? session.dialled->target.name : hello.name;
   const auto objection = farm_.apply([&](Farm& farm, FarmTime) { return farm.objection_to(name); });
   if (objection) return refuse(session, *objection);

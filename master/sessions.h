@@ -37,8 +37,11 @@ class Sessions {
   ~Sessions();
 
   const Address& listening_at() const { return listening_at_; }
-  /// Dials, and again whenever the worker is lost. Why it cannot be reached is logged, once for each reason.
+  /// Dials, and again whenever the worker is lost. Why it cannot be reached is logged, once for each reason. Throws
+  /// NameInUse when a worker of that name is here, dialled or banned.
   void dial(DialTarget target);
+  /// A worker that is reached stays until it goes. False: the name is not dialled.
+  bool stop_dialling(const std::string& name);
   /// Those that are dialled and not reached just now.
   std::vector<Dialling> dialling() const;
   /// Takes workers in. Returns after stop(), once all are gone.
@@ -51,7 +54,8 @@ class Sessions {
   struct Dialled;
 
   asio::awaitable<void> accept_all();
-  asio::awaitable<void> keep_dialled(Dialled& dialled);
+  void expect_free(const std::string& name) const;
+  asio::awaitable<void> keep_dialled(std::list<Dialled>::iterator dialled);
   asio::awaitable<std::string> try_target(const Dialled& dialled);
   asio::awaitable<void> serve_stranger(asio::ip::tcp::socket socket);
   asio::awaitable<std::string> try_stranger(asio::ip::tcp::socket socket);

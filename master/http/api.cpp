@@ -5,6 +5,7 @@
 
 #include "common/net/address.h"
 #include "common/net/codec.h"
+#include "master/http/query.h"
 #include "master/http/request_target.h"
 #include "master/http/submission.h"
 
@@ -62,8 +63,12 @@ const Route* route_of(const ApiRequest& request) {
 ApiResponse routed(const ApiRequest& request, const Doors& doors) {
   RequestTarget target = parse_target(request.target);
   Match match = match_of(request.method, target);
-  if (match.route)
+  if (match.route) {
+    if (is_evaluation(match.route->work) && request.has_left && request.has_left())
+      throw ApiError(400, "you have left");
+    expect_known(target.query, parse_target(match.route->path).query);
     return match.route->handle({request, doors, std::move(match.arguments), std::move(target.query)});
+  }
   if (match.path_is_known) throw ApiError(405, request.method + " is not possible here");
   if (request.method == "GET" && !request.target.starts_with("/api/"))
     return doors.app.answer(request.target.substr(0, request.target.find('?')));
@@ -85,7 +90,11 @@ std::uint64_t body_limit(const ApiRequest& request) {
 std::vector<ApiRoute> api_routes() {
   std::vector<ApiRoute> all;
   for (const std::span<const Route> table : all_tables())
-    for (const Route& route : table) all.push_back({std::string(route.method), std::string(route.path)});
+    for (const Route& route : table) {
+      ApiRoute& one = all.emplace_back();
+      one.method = route.method, one.path = route.path.substr(0, route.path.find('?'));
+      for (const auto& [name, ignored] : parse_target(route.path).query) one.query.insert(name);
+    }
   return all;
 }
 
@@ -119,6 +128,8 @@ ApiResponse answer(const ApiRequest& request, const Doors& doors) {
   } catch (const std::invalid_argument& error) {
     return error_response(400, error.what());
   } catch (const KeyTaken& error) {
+    return error_response(409, error.what());
+  } catch (const NameInUse& error) {
     return error_response(409, error.what());
   } catch (const AddressError& error) {
     return error_response(422, error.what());

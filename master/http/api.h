@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace rayfarm {
 
 struct ApiRoute {
-  std::string method, path;  // "/api/v1/jobs/{id}"
+  std::string method, path;     // "/api/v1/jobs/{id}"
+  std::set<std::string> query;  // what may stand in it
 };
 std::vector<ApiRoute> api_routes();
 

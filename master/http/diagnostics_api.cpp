@@ -131,9 +131,7 @@ ApiResponse show_trace(const Call& call) {
 
 CloudRequest cloud_request(const Call& call) {
   CloudRequest request;
-  request.points = whole_in(call, "points").value_or(request.points);
-  if (request.points < 1 || request.points > most_cloud_points)
-    throw ApiError(400, "points must be 1 to " + std::to_string(most_cloud_points));
+  request.points = whole_in(call, "points", {1, most_cloud_points}).value_or(request.points);
   request.options.voxel = real_in(call, "voxel").value_or(0);
   if (request.options.voxel < 0) throw ApiError(400, "voxel must be a size, or 0 for all points");
   request.options.form = choice_in(call, "form", "binary", "binary, ascii or compact",
@@ -152,10 +150,10 @@ ApiResponse show_cloud(const Call& call) {
 }
 
 constexpr Route routes[]{
-    {"GET", "/api/v1/jobs/{id}/statistics", show_statistics, Work::picture},
-    {"GET", "/api/v1/jobs/{id}/scene", show_scene, Work::picture},
-    {"GET", "/api/v1/jobs/{id}/trace", show_trace, Work::trace},
-    {"GET", "/api/v1/jobs/{id}/cloud.ply", show_cloud, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/statistics?frame&wait", show_statistics, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/scene?frame", show_scene, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/trace?frame&x&y&sample&story&format&wait", show_trace, Work::trace},
+    {"GET", "/api/v1/jobs/{id}/cloud.ply?frame&points&voxel&form&visible&wait", show_cloud, Work::picture},
 };
 
 }  // namespace

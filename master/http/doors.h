@@ -18,11 +18,13 @@ class Diagnostics;
 
 /// What of the master is not the farm's. All are called on the farm's thread.
 struct MasterDoor {
-  /// NAME=HOST[:PORT], from now on. Throws AddressError.
+  /// NAME=HOST[:PORT], from now on. Throws AddressError and NameInUse.
   std::function<void(const std::string& target)> dial;
   std::function<std::vector<Dialling>()> dialling;
   /// The lines of the log after this number.
   std::function<std::vector<LogLine>(std::uint64_t after)> log;
+  /// False: the name is not dialled.
+  std::function<bool(const std::string& name)> stop_dialling{};
 };
 
 /// All of it outlives the server.

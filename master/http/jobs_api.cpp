@@ -60,8 +60,9 @@ JobSpec job_like_another(const json& body, const FarmDoor& farm) {
 
 ApiResponse submit_job(const Call& call) {
   const json body = parse_json(call.request.body);
-  SubmittedJob job = body.contains("scene_of") ? SubmittedJob{job_like_another(body, call.doors.farm), {}}
-                                               : submitted_job(body, call.doors.scenes, call.doors.assets);
+  SubmittedJob job = body.contains("scene_of")
+                         ? SubmittedJob{job_like_another(body, call.doors.farm), {}}
+                         : submitted_job(body, call.doors.scenes, call.doors.assets, call.request.has_left);
   const std::optional<FrameRange> frames = job.spec.frames;
   const json submitted = call.doors.farm.ask([spec = std::move(job.spec)](Farm& farm, FarmTime now) mutable {
     const JobId id = farm.submit(std::move(spec), now);
@@ -126,9 +127,9 @@ ApiResponse prioritise_job(const Call& call) {
 }
 
 constexpr Route routes[]{
-    {"GET", "/api/v1/jobs", list_jobs},
+    {"GET", "/api/v1/jobs?after&wait", list_jobs},
     {"POST", "/api/v1/jobs", submit_job, Work::script, submission_limit},
-    {"GET", "/api/v1/jobs/{id}", show_job},
+    {"GET", "/api/v1/jobs/{id}?after&wait", show_job},
     {"GET", "/api/v1/jobs/{id}/frames", list_frames},
     {"POST", "/api/v1/jobs/{id}/frames", add_frame, Work::script, submission_limit},
     {"POST", "/api/v1/jobs/{id}/pause", pause_job},

@@ -91,11 +91,11 @@ ApiResponse map_file(const Map& map, const MapOrigin& origin, const MapFormat& f
   return {200, "image/png", png_bytes(picture)};
 }
 
-/// Of a map that only the farm can tell: there when the job is done.
+/// Of a map that only the farm can tell: whole when the job is done.
 ApiResponse show_delivery_map(const Call& call, const JobSubject& of, MapOrigin origin,
                               const MapFormat& format) {
   const FrameView& frame = of.frame;
-  if (frame.state != JobState::done)
+  if (frame.state != JobState::done && !switch_in(call, "partial"))
     return in_the_making(static_cast<double>(frame.pixels_done) / static_cast<double>(frame.pixels_total));
   const Deliveries deliveries = job_deliveries(call.doors.farm, of.job.id, frame.frame);
   const MapKind& kind = *origin.request.kind;
@@ -113,13 +113,15 @@ ApiResponse show_map(const Call& call) {
   if (is_of_deliveries(*request.kind)) return show_delivery_map(call, of, origin, format);
   const Made<Map> made = call.doors.diagnostics.map(subject, request);
   if (made.standing.state == LayerProgress::failed) throw ApiError(500, made.standing.message);
-  if (!made.thing) return in_the_making(made.standing.share_done);
-  return map_file(*made.thing, origin, format);
+  if (made.thing) return map_file(*made.thing, origin, format);
+  if (!switch_in(call, "partial")) return in_the_making(made.standing.share_done);
+  return map_file(call.doors.diagnostics.map_so_far(subject, request), origin, format);
 }
 
 constexpr Route routes[]{
     {"GET", "/api/v1/maps", list_maps},
-    {"GET", "/api/v1/jobs/{id}/maps/{map}", show_map, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/maps/{map}?frame&reduce&compat&format&scale&low&high&legend&partial&wait",
+     show_map, Work::picture},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A request and its answer, without sockets.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -44,6 +45,7 @@ struct ApiRequest {
   std::string method, target;
   std::string host, origin, fetch_site, content_type;  // header fields; empty: not there
   std::string body;
+  std::function<bool()> has_left{};  // whether the asker waits no longer; none: it does
 };
 
 /// How long a browser may keep an answer.

@@ -33,10 +33,10 @@ ApiResponse show_exr(const Call& call) {
 }
 
 ApiResponse show_png(const Call& call) {
-  const std::optional<std::uint32_t> longest_side = whole_in(call, "longest_side");
+  constexpr WholeRange sides{.low = 1};
+  const std::optional<std::uint32_t> longest_side = whole_in(call, "longest_side", sides);
   if (!longest_side)
     return {200, "image/png", png_bytes(picture_of(call.doors.farm, job_id(call), whole_in(call, "frame")))};
-  if (*longest_side == 0) throw ApiError(400, "longest_side must be 1 or more");
   const auto film = film_snapshot(call.doors.farm, job_id(call), whole_in(call, "frame"));
   return {200, "image/png", png_bytes(preview(*film, *longest_side))};
 }
@@ -71,11 +71,11 @@ ApiResponse show_flip(const Call& call) {
 }
 
 constexpr Route routes[]{
-    {"GET", "/api/v1/jobs/{id}/film", show_film, Work::picture},
-    {"GET", "/api/v1/jobs/{id}/picture.png", show_png, Work::picture},
-    {"GET", "/api/v1/jobs/{id}/picture.exr", show_exr, Work::picture},
-    {"GET", "/api/v1/jobs/{id}/difference/{other}", show_difference, Work::picture},
-    {"GET", "/api/v1/jobs/{id}/difference/{other}/flip.png", show_flip, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/film?frame", show_film, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/picture.png?frame&longest_side", show_png, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/picture.exr?frame", show_exr, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/difference/{other}?frame&other_frame", show_difference, Work::picture},
+    {"GET", "/api/v1/jobs/{id}/difference/{other}/flip.png?frame&other_frame", show_flip, Work::picture},
 };
 
 }  // namespace

@@ -18,6 +18,16 @@ std::optional<Number> number_of(const std::string& text) {
 
 }  // namespace
 
+void expect_known(const std::map<std::string, std::string>& query,
+                  const std::map<std::string, std::string>& known) {
+  std::string names;
+  for (const auto& [name, ignored] : known) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, ignored] : query)
+    if (!known.contains(name))
+      throw ApiError(400, "\"" + name + "\" is unknown in the query; " +
+                              (names.empty() ? "nothing may stand there" : "known are: " + names));
+}
+
 std::optional<std::string> text_in(const Call& call, const std::string& name) {
   const auto found = call.query.find(name);
   return found == call.query.end() ? std::nullopt : std::optional(found->second);
@@ -31,11 +41,13 @@ std::optional<double> real_in(const Call& call, const std::string& name) {
   return number;
 }
 
-std::optional<std::uint32_t> whole_in(const Call& call, const std::string& name) {
+std::optional<std::uint32_t> whole_in(const Call& call, const std::string& name, WholeRange range) {
   const auto text = text_in(call, name);
   if (!text) return std::nullopt;
   const auto number = number_of<std::uint32_t>(*text);
-  if (!number) throw ApiError(400, name + " must be a whole number, is " + *text);
+  if (!number || *number < range.low || *number > range.high)
+    throw ApiError(400, name + " must be a whole number from " + std::to_string(range.low) + " to " +
+                            std::to_string(range.high) + ", is " + *text);
   return number;
 }
 

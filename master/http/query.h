@@ -1,6 +1,8 @@
 // What a request asks for beside its path: "?reduce=mean&compat=1". Each throws ApiError with the name and what it
 // may be.
 #pragma once
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -8,10 +10,18 @@
 
 namespace rayfarm {
 
+/// Throws unless all names in the query are among the known ones: a misspelt one would be left out in silence.
+void expect_known(const std::map<std::string, std::string>& query,
+                  const std::map<std::string, std::string>& known);
+
+struct WholeRange {
+  std::uint32_t low = 0, high = std::numeric_limits<std::uint32_t>::max();  // both are in it
+};
+
 /// Nothing when it is not there.
 std::optional<std::string> text_in(const Call& call, const std::string& name);
 std::optional<double> real_in(const Call& call, const std::string& name);
-std::optional<std::uint32_t> whole_in(const Call& call, const std::string& name);
+std::optional<std::uint32_t> whole_in(const Call& call, const std::string& name, WholeRange range = {});
 /// 0 (also when it is not there) or 1.
 bool switch_in(const Call& call, const std::string& name);
 

@@ -21,8 +21,12 @@ enum class Work : std::uint8_t {
   command,  // asks the farm something small
   trace,    // milliseconds of processor time
   picture,  // seconds: pictures, maps, clouds and films are made into files
-  script,   // up to 20 s: scenes are evaluated and checked
+  look,     // up to 5 s: scripts are evaluated for a form
+  script,   // up to 20 s: scenes are evaluated and checked to be rendered
 };
+
+/// It is not done for who has left.
+constexpr bool is_evaluation(Work work) { return work == Work::look || work == Work::script; }
 
 /// A request at its handler.
 struct Call {
@@ -37,7 +41,7 @@ constexpr std::uint64_t command_limit = 64 * 1024;  // bytes of a body
 /// A handler runs on a thread of its kind of work. It may throw ApiError and what the rooms that it calls
 /// throw; a picture that is still being made is no reason to wait: it answers 202.
 struct Route {
-  std::string_view method, path;  // "/api/v1/jobs/{id}"
+  std::string_view method, path;  // "/api/v1/jobs/{id}?after&wait": with all that may stand in the query
   ApiResponse (*handle)(const Call&);
   Work work = Work::command;
   std::uint64_t body_limit = command_limit;

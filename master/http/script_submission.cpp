@@ -63,12 +63,13 @@ json to_json(const std::optional<std::uint32_t>& number) { return number ? json(
 
 }  // namespace
 
-ScriptFacts script_facts(const json& body) {
+ScriptFacts script_facts(const json& body, const HasLeft& has_left) {
   for (const auto& [name, ignored] : body.items())
     if (name != "script" && name != "name") throw ApiError(400, name + " is unknown");
   if (!body.contains("script")) throw ApiError(400, "script must be there: the text of the script");
   NamedScript script = uploaded(body, "name");
-  ScriptResult result = evaluate({std::move(script.name), std::move(script.text), {}, 0});
+  ScriptResult result =
+      evaluate({std::move(script.name), std::move(script.text), {}, 0}, look_limits, has_left);
   return {std::move(result.parameters), result.scene.image, result.scene.animation};
 }
 
@@ -93,7 +94,8 @@ json to_json(const OfferedScene& scene) {
   return object;
 }
 
-SubmittedJob submitted_job(const json& body, const SceneLibrary& library, AssetStore& store) {
+SubmittedJob submitted_job(const json& body, const SceneLibrary& library, AssetStore& store,
+                           const HasLeft& has_left) {
   const auto sources = body.contains("scene") + body.contains("scene_name") + body.contains("script");
   if (sources != 1) throw ApiError(400, "one of scene, scene_name and script must be there");
   if (body.contains("scene")) return {job_spec(body, store), {}};
@@ -107,7 +109,7 @@ SubmittedJob submitted_job(const json& body, const SceneLibrary& library, AssetS
   const std::uint32_t first = spec.frames ? spec.frames->first : spec.settings.frame;
   ScriptRequest script{std::move(chosen.name),  std::move(chosen.text), spec.parameters, first, {},
                        std::move(chosen.folder)};
-  ScriptResult result = evaluate(script);
+  ScriptResult result = evaluate(script, {}, has_left);
   const Scene& scene = result.scene;
   if (spec.frames) expect_frames(script.name, scene, *spec.frames);
   script.animation = scene.animation;

@@ -17,11 +17,13 @@ ApiResponse list_scenes(const Call& call) {
   return shown({{"scenes", std::move(scenes)}});
 }
 
-ApiResponse look_at_script(const Call& call) { return shown(to_json(script_facts(body_of(call)))); }
+ApiResponse look_at_script(const Call& call) {
+  return shown(to_json(script_facts(body_of(call), call.request.has_left)));
+}
 
 constexpr Route routes[]{
-    {"GET", "/api/v1/scenes", list_scenes, Work::script},
-    {"POST", "/api/v1/scripts", look_at_script, Work::script, script_limit},
+    {"GET", "/api/v1/scenes", list_scenes, Work::look},
+    {"POST", "/api/v1/scripts", look_at_script, Work::look, script_limit},
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "master/http/server.h"
 
+#include <poll.h>
+
 #include <array>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
@@ -114,13 +116,21 @@ std::uint64_t expected_body(const RequestParser& parser, std::uint64_t limit) {
 }
 
 /// What a request that cannot be read deserves; nothing when the peer is gone or silent.
-std::optional<ApiResponse> complaint(const boost::system::error_code& error) {
+std::optional<ApiResponse> complaint(const boost::system::error_code& error, std::uint64_t body_limit) {
   if (error == http::error::header_limit) return error_response(431, "the header is over 8 KB");
-  if (error == http::error::body_limit) return error_response(413, "the body is too large");
+  if (error == http::error::body_limit)
+    return error_response(
+        413, "the body is too large: at most " + std::to_string(body_limit) + " bytes may come here");
   if (error == http::error::end_of_stream || error == http::error::partial_message) return std::nullopt;
   if (error.category() == make_error_code(http::error::bad_method).category())
     return error_response(400, "this is no HTTP request: " + error.message());
   return std::nullopt;
+}
+
+/// True when the peer has closed the connection, or its half of it.
+bool has_left(int socket) {
+  pollfd looked_at{socket, POLLRDHUP, 0};
+  return ::poll(&looked_at, 1, 0) > 0;
 }
 
 /// What follows an answer; nothing: the connection is no longer ours.
@@ -160,8 +170,8 @@ struct HttpServer::Parts {
   // What waits in these owns sessions, which use the members above.
   asio::io_context io{1};
   tcp::acceptor acceptor;
-  std::array<asio::thread_pool, 4> threads{asio::thread_pool(1), asio::thread_pool(1), asio::thread_pool(2),
-                                           asio::thread_pool(1)};  // by kind of work
+  std::array<asio::thread_pool, 5> threads{asio::thread_pool(1), asio::thread_pool(1), asio::thread_pool(2),
+                                           asio::thread_pool(4), asio::thread_pool(2)};  // by kind of work
   asio::thread_pool live_threads{1};
   std::jthread thread;
 };
@@ -222,11 +232,11 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
                                      asio::redirect_error(asio::use_awaitable, error));
   }
   ApiRequest request = api_request(parser.get());
-  std::optional<ApiResponse> refused = error ? complaint(error) : refusal(request, listening);
+  std::optional<ApiResponse> refused = error ? complaint(error, 0) : refusal(request, listening);
   if (error && !refused) co_return Then::farewell;
   const std::uint64_t limit = body_limit(request);
   const std::uint64_t expected = refused ? 0 : expected_body(parser, limit);
-  if (!refused && expected > limit) refused = complaint(http::error::body_limit);
+  if (!refused && expected > limit) refused = complaint(http::error::body_limit, limit);
   if (!refused && body_bytes + expected > memory_for_bodies)
     refused = error_response(503, "too many scenes are being submitted at once; try again");
   const MemoryShare share(body_bytes, refused ? 0 : expected);  // ends with the answer
@@ -235,7 +245,7 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
     parser.body_limit(limit);  // for a body in chunks, which does not tell its size
     stream.expires_after(settings.body_patience);
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
-    if (error) refused = complaint(error);
+    if (error) refused = complaint(error, limit);
     if (error && !refused) co_return Then::farewell;
   }
   if (refused) co_return co_await reply(stream, std::move(*refused), parser.get(), false);
@@ -246,6 +256,7 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
   }
 
   request.body = std::move(parser.get().body());
+  request.has_left = [socket = stream.socket().native_handle()] { return has_left(socket); };
   ApiResponse answered = co_await respond(request);
   co_return co_await reply(stream, std::move(answered), parser.get(), parser.get().keep_alive());
 }

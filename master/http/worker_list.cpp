@@ -28,11 +28,19 @@ WorkerList worker_list(const Farm& farm, const MasterDoor& master) {
 json to_json(const WorkerList& list, FarmTime now) {
   json workers = json::array();
   const auto is_banned = [&](const std::string& name) { return std::ranges::count(list.banned, name) != 0; };
-  for (const WorkerView& worker : list.here)
-    if (!is_banned(worker.info.name)) workers.push_back(to_json(worker, now));  // else it is about to go
+  const auto is_here = [&](const std::string& name) {
+    return std::ranges::any_of(list.here, [&](const WorkerView& w) { return w.info.name == name; });
+  };
+  for (const WorkerView& worker : list.here) {
+    if (is_banned(worker.info.name)) continue;  // it is about to go
+    json& shown = workers.emplace_back(to_json(worker, now));
+    const auto dialled = std::ranges::find(list.dialled, worker.info.name, &Dialling::name);
+    if (dialled != list.dialled.end())  // it came by itself meanwhile: still one row a name
+      shown["message"] = "also dialled, at " + dialled->address + ": " + dialled->message;
+  }
   for (const std::string& name : list.banned) workers.push_back(absent(name, "banned", "", ""));
   for (const Dialling& dialled : list.dialled)
-    if (!is_banned(dialled.name))
+    if (!is_banned(dialled.name) && !is_here(dialled.name))
       workers.push_back(absent(dialled.name, "dialling", dialled.address, dialled.message));
   return workers;
 }

@@ -60,6 +60,15 @@ ApiResponse dial_worker(const Call& call) {
   return {201, "application/json", json{{"dial", target}}.dump()};
 }
 
+ApiResponse stop_dialling(const Call& call) {
+  const std::string& name = call.arguments.at(0);
+  const bool stopped = call.doors.farm.ask(
+      [&master = call.doors.master, name](Farm&, FarmTime) { return master.stop_dialling(name); });
+  if (!stopped)
+    throw ApiError(404, "no worker \"" + name + "\" is dialled; GET /api/v1/workers lists those that are");
+  return shown({{"name", name}});
+}
+
 ApiResponse show_log(const Call& call) {
   const std::uint64_t after = number_in(call.query, "after");
   return shown(call.doors.farm.ask([&master = call.doors.master, after](Farm&, FarmTime now) {
@@ -80,7 +89,8 @@ constexpr Route routes[]{
     {"POST", "/api/v1/workers/{name}/ban", ban_worker},
     {"POST", "/api/v1/workers/{name}/unban", unban_worker},
     {"POST", "/api/v1/workers", dial_worker},
-    {"GET", "/api/v1/log", show_log},
+    {"DELETE", "/api/v1/workers/dial/{name}", stop_dialling},
+    {"GET", "/api/v1/log?after", show_log},
 };
 
 }  // namespace

@@ -30,6 +30,13 @@ TEST_F(Doors, AListeningWorkerIsDialledWhateverElseIsInTheList) {
   });
 }
 
+TEST_F(Doors, TwoToBeDialledByOneNameAreAMistake) {
+  const ProgramResult run = run_program({"rayfarm-master", "--http", "127.0.0.1:0", "--listen", "127.0.0.1:0",
+                                         "--dial", "w1=127.0.0.1:1", "--dial", "w1=127.0.0.1:2"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("two workers are named w1"), std::string::npos) << run.err;
+}
+
 TEST_F(Doors, GarbageAndSilenceAtTheWorkersPortHurtNobody) {
   start_master({"--threads", "0"});
   RawPeer silent(farm_port()), half(farm_port());

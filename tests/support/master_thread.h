@@ -50,7 +50,8 @@ class MasterThread {
   MasterDoor door() {
     return {[this](const std::string& target) { sessions_.dial(parse_dial_target(target)); },
             [this] { return sessions_.dialling(); },
-            [this](std::uint64_t after) { return farm_.log().after(after); }};
+            [this](std::uint64_t after) { return farm_.log().after(after); },
+            [this](const std::string& name) { return sessions_.stop_dialling(name); }};
   }
   /// Waits until the farm says yes.
   template <class Question>

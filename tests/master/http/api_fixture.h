@@ -31,6 +31,15 @@ class Api : public testing::Test {
                                                                   .scenes = scenes,
                                                                   .assets = assets});
   }
+  ApiResponse remove(const std::string& target) {
+    return answer({"DELETE", target, "", "", "", "", ""}, {.farm = door,
+                                                           .feeder = feeder,
+                                                           .diagnostics = diagnostics,
+                                                           .master = master,
+                                                           .app = app,
+                                                           .scenes = scenes,
+                                                           .assets = assets});
+  }
   nlohmann::json get_json(const std::string& target) { return nlohmann::json::parse(get(target).body); }
   std::string submit(const JobSpec& spec = small_job()) {
     return nlohmann::json::parse(post("/api/v1/jobs", to_json(spec)).body)["id"].dump();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "common/net/address.h"
 #include "common/net/codec.h"
@@ -128,6 +129,50 @@ TEST_F(Api, AWorkerIsDialledOrABadAddressNamed) {
   EXPECT_EQ(json::parse(bad.body)["error"], "\"lab1\" is no worker to dial");
   EXPECT_EQ(post("/api/v1/workers", {{"dail", "lab1=a"}}).status, 400u);
   EXPECT_EQ(post("/api/v1/workers", {{"dial", "lab1=a\nb"}}).status, 422u);
+}
+
+TEST_F(Api, ANameIsDialledOnceAndNoLongerOnDemand) {
+  std::set<std::string> dialled;
+  master.dial = [&](const std::string& target) {
+    if (!dialled.insert(target.substr(0, target.find('='))).second) throw NameInUse("it is dialled already");
+  };
+  master.stop_dialling = [&](const std::string& name) { return dialled.erase(name) != 0; };
+  EXPECT_EQ(post("/api/v1/workers", {{"dial", "lab1=192.168.1.11"}}).status, 201u);
+  const ApiResponse twice = post("/api/v1/workers", {{"dial", "lab1=192.168.1.12"}});
+  EXPECT_EQ(twice.status, 409u);
+  EXPECT_EQ(json::parse(twice.body)["error"], "it is dialled already");
+  EXPECT_EQ(remove("/api/v1/workers/dial/lab1").status, 200u);
+  const ApiResponse again = remove("/api/v1/workers/dial/lab1");
+  EXPECT_EQ(again.status, 404u);
+  EXPECT_EQ(json::parse(again.body)["error"],
+            "no worker \"lab1\" is dialled; GET /api/v1/workers lists those that are");
+}
+
+TEST_F(Api, AWorkerThatIsDialledAndCameByItselfIsOneRow) {
+  farm.add_idler("lab1");
+  master.dialling = [] { return std::vector<Dialling>{{"lab1", "192.168.1.11:5411", "no route to host"}}; };
+  const json workers = get_json("/api/v1/workers")["workers"];
+  ASSERT_EQ(workers.size(), 1u);
+  EXPECT_NE(workers[0]["state"], "dialling");
+  EXPECT_EQ(workers[0]["message"], "also dialled, at 192.168.1.11:5411: no route to host");
+}
+
+TEST_F(Api, AMisspeltNameInTheQueryIsNamedWithTheKnownOnes) {
+  const std::string job = submit();
+  const auto error_of = [&](const std::string& target) {
+    const ApiResponse refused = get(target);
+    EXPECT_EQ(refused.status, 400u) << target;
+    return json::parse(refused.body)["error"].get<std::string>();
+  };
+  EXPECT_EQ(error_of("/api/v1/jobs/" + job + "/trace?x=1&y=1&smaple=3"),
+            "\"smaple\" is unknown in the query; known are: format, frame, sample, story, wait, x, y");
+  EXPECT_EQ(error_of("/api/v1/version?verbose"),
+            "\"verbose\" is unknown in the query; nothing may stand there");
+  EXPECT_EQ(error_of("/api/v1/jobs/" + job + "/cloud.ply?points=99999999999"),
+            "points must be a whole number from 1 to 2000000, is 99999999999");
+  EXPECT_EQ(error_of("/api/v1/jobs/" + job + "/cloud.ply?points=0"),
+            "points must be a whole number from 1 to 2000000, is 0");
+  EXPECT_EQ(get("/?job=7").status, get("/").status);  // the page's own
 }
 
 TEST_F(Api, TheLogIsToldFromANumberOn) {

@@ -134,6 +134,20 @@ TEST_F(DiagnosticsApi, AMapBeingMadeSaysHowFarItIs) {
   EXPECT_EQ(get_json(target_of(job, "/maps/depth"))["progress"], 0.25);
 }
 
+TEST_F(DiagnosticsApi, WhatIsThereOfAMapIsGivenToWhoWantsIt) {
+  const JobId job = submit();
+  const std::string map = target_of(job, "/maps/depth?format=csv");
+  const std::string nothing{get(map + "&partial=1").body.text()};
+  EXPECT_NE(nothing.find("inf;inf;inf"), std::string::npos);
+  while (get_json(map)["progress"] < 0.25) diagnostics.work_once();
+  const std::string coarse{get(map + "&partial=1").body.text()};
+  EXPECT_NE(coarse, nothing);
+  work();
+  const std::string whole{get(map).body.text()};
+  EXPECT_NE(coarse, whole);
+  EXPECT_EQ(get(map + "&partial=1").body.text(), whole);
+}
+
 TEST_F(DiagnosticsApi, WhoRenderedWhatIsKnownWhenTheJobIsDone) {
   const JobId job = submit();
   EXPECT_EQ(get(target_of(job, "/maps/worker")).status, 202u);

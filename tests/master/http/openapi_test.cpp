@@ -27,6 +27,11 @@ std::string upper(std::string text) {
   return text;
 }
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 TEST(OpenApi, DescribesEachRouteAndNoOther) {
   std::set<std::string> served, described;
   for (const ApiRoute& route : api_routes())
@@ -35,6 +40,17 @@ TEST(OpenApi, DescribesEachRouteAndNoOther) {
   for (const auto& [path, methods] : document["paths"].items())
     for (const auto& [method, ignored] : methods.items()) described.insert(upper(method) + " " + path);
   EXPECT_EQ(served, described);
+}
+
+TEST(OpenApi, DescribesWhatMayStandInEachQuery) {
+  const json document = openapi();
+  for (const ApiRoute& route : api_routes()) {
+    std::set<std::string> described;
+    const json& method = document["paths"][route.path][lower(route.method)];
+    for (const json& parameter : method.value("parameters", json::array()))
+      if (parameter["in"] == "query") described.insert(parameter["name"]);
+    EXPECT_EQ(route.query, described) << route.method << " " << route.path;
+  }
 }
 
 TEST(OpenApi, DescribesTheMembersThatAreSent) {

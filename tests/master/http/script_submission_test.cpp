@@ -50,6 +50,21 @@ TEST_F(ScriptSubmission, AnOfferedSceneIsEvaluatedWithItsParameters) {
   EXPECT_EQ(spec.scene_hash, sha256_hex(*spec.scene_bytes));
 }
 
+TEST_F(ScriptSubmission, AnEvaluationEndsWhenItsAskerLeaves) {
+  const json endless{{"script", "while true do end"}};
+  const auto message_of = [](auto evaluation) -> std::string {
+    try {
+      evaluation();
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto has_left = [] { return true; };
+  EXPECT_EQ(message_of([&] { script_facts(endless, has_left); }), "script.lua: interrupted");
+  EXPECT_EQ(message_of([&] { submitted_job(endless, library, store, has_left); }), "script.lua: interrupted");
+}
+
 TEST_F(ScriptSubmission, AnUploadedScriptIsTheSameScene) {
   const JobSpec offered = submitted({{"scene_name", "balls"}});
   const JobSpec uploaded =

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "master/http/client.h"
+#include "master/http/script_submission.h"
 #include "master/http/submission.h"
 #include "tests/support/raw_peer.h"
 #include "tests/support/test_server.h"
@@ -160,6 +161,52 @@ TEST_F(Server, SaysThatABodyIsTooLargeAlsoWhenItComesAnyway) {
   EXPECT_EQ(status_line("POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host +
                         "Content-Type: application/json\r\nContent-Length: 1000000\r\n\r\n" + body),
             "HTTP/1.1 413 Payload Too Large");
+}
+
+TEST_F(Server, SaysHowLargeABodyMayBe) {
+  EXPECT_NE(answer_to("POST /api/v1/jobs/1/pause HTTP/1.1\r\n" + host +
+                      "Content-Type: application/json\r\nContent-Length: 100000\r\n\r\n")
+                .find("the body is too large: at most 65536 bytes may come here"),
+            std::string::npos);
+}
+
+std::string look_at(const std::string& script) {
+  const std::string body = json{{"script", script}}.dump();
+  return "POST /api/v1/scripts HTTP/1.1\r\n" + host +
+         "Content-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n" + close +
+         "\r\n" + body;
+}
+const std::string endless = look_at("while true do end");
+const std::string tiny = look_at(
+    "return scene{ camera = perspective{ from = {0, 0, -9}, angle = 60 }, lights = { ambient(1) }, root = "
+    "sphere{} }");
+
+// Three loops of one user once made another one's tiny script wait for a minute.
+TEST_F(Server, AScriptIsLookedAtBesideThreeThatNeverEnd) {
+  std::list<RawPeer> loops;
+  for (int i = 0; i < 3; ++i) loops.emplace_back(port()).send(endless);
+  EXPECT_TRUE(answer_to(tiny).starts_with("HTTP/1.1 200"));
+  for (const RawPeer& loop : loops) {
+    pollfd answered{loop.descriptor(), POLLIN, 0};
+    EXPECT_EQ(::poll(&answered, 1, 0), 0);  // still at it
+  }
+}
+
+// More than there are children: the answer comes once those who have left are dropped, long before their limits.
+TEST_F(Server, AScriptOfWhoHasLeftIsNotEvaluated) {
+  std::list<RawPeer> loops;
+  for (int i = 0; i < 40; ++i) loops.emplace_back(port()).send(endless);
+  loops.clear();
+  const auto begun = std::chrono::steady_clock::now();
+  EXPECT_TRUE(answer_to(tiny).starts_with("HTTP/1.1 200"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begun,
+            look_limits.wall);  // of the least of ten rounds of them
+}
+
+TEST_F(Server, AScriptThatIsLookedAtIsEndedSoonerThanOneToBeRendered) {
+  const std::string answer = answer_to(endless);
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 422")) << answer;
+  EXPECT_NE(answer.find("takes more than 5"), std::string::npos) << answer;
 }
 
 // Room is for four of the largest; the others wait for their bodies, so only the refused one is answered.

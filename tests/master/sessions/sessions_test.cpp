@@ -177,7 +177,6 @@ TEST(Sessions, TellOfADialledWorkerWhyItIsNotReached) {
   const Address address{"127.0.0.1", door.local_endpoint().port()};
   door.close();  // nobody is there
   master.dial({"lab7", address});
-  master.dial({"lab7", address});  // is the same
   std::vector<Dialling> dialling;
   do dialling = master.ask([&](Farm&, FarmTime) { return master.door().dialling(); });
   while (dialling.at(0).message.empty());
@@ -196,6 +195,61 @@ TEST(Sessions, TellOfADialledWorkerWhyItIsNotReached) {
   worker.send(hello_from("its own name"));
   EXPECT_EQ(worker.receive_a<Welcome>().name, "lab7");
   EXPECT_TRUE(master.ask([&](Farm&, FarmTime) { return master.door().dialling().empty(); }));
+}
+
+constexpr Address nobody{"127.0.0.1", 1};
+
+bool stop_dialling(MasterThread& master, const std::string& name) {
+  return master.ask([&](Farm&, FarmTime) { return master.door().stop_dialling(name); });
+}
+std::string refusal_of(MasterThread& master, const std::string& name) {
+  try {
+    master.dial({name, nobody});
+  } catch (const NameInUse& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A mistyped dial once stood beside the healthy worker under its name: who banned the one banned the other.
+TEST(Sessions, DialNoNameThatIsInUse) {
+  MasterThread master;
+  Guest guest(master, "here");
+  EXPECT_EQ(refusal_of(master, "here"),
+            "a worker \"here\" is here already; dial the new one by another name");
+  EXPECT_EQ(refusal_of(master, "asleep"), "");
+  EXPECT_EQ(refusal_of(master, "asleep"),
+            "\"asleep\" is dialled already, at 127.0.0.1:1: stop that first (DELETE "
+            "/api/v1/workers/dial/asleep), or choose another name");
+  master.ask([](Farm& farm, FarmTime now) { return farm.ban("here", now); });
+  guest.receive_a<Refused>();
+  master.wait_for_workers(0);
+  EXPECT_NE(refusal_of(master, "here").find("rayfarm unban here"), std::string::npos);
+}
+
+TEST(Sessions, DialNoLongerWhatTheyShallNot) {
+  MasterThread master;
+  EXPECT_FALSE(stop_dialling(master, "asleep"));
+  for (int round = 0; round < 3; ++round) {
+    EXPECT_EQ(refusal_of(master, "asleep"), "");
+    EXPECT_TRUE(stop_dialling(master, "asleep"));
+    EXPECT_FALSE(stop_dialling(master, "asleep"));
+    EXPECT_TRUE(master.ask([&](Farm&, FarmTime) { return master.door().dialling().empty(); }));
+  }
+}
+
+TEST(Sessions, KeepAWorkerThatIsHereWhenItIsNoLongerDialled) {
+  MasterThread master;
+  asio::io_context io;
+  asio::ip::tcp::acceptor door(io, {asio::ip::address_v4::loopback(), 0});
+  master.dial({"lab7", {"127.0.0.1", door.local_endpoint().port()}});
+  WorkerByHand worker;
+  worker.accept(door);
+  worker.send(hello_from("lab7"));
+  worker.receive_a<Welcome>();
+  EXPECT_TRUE(stop_dialling(master, "lab7"));
+  submit(master, one_tile);
+  worker.receive_a<SceneData>();
 }
 
 TEST(Sessions, SayGoodbyeToAllWhenTheMasterStops) {
