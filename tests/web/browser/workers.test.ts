@@ -87,13 +87,25 @@ describe("a worker to be dialled", () => {
     expect(app.complaints.splice(0).every((text) => text.includes("422"))).toBe(true);
     await address.fill("attic=127.0.0.1:9");
     await page.keyboard.press("Enter");
-    await row("attic").getByText("dialling").waitFor();
+    await row("attic").getByText("dialling", { exact: true }).waitFor();
     expect(await page.locator("#dial-fault").count()).toBe(0);
     expect(await toldState("attic")).toBe("dialling");
     const why = row("attic").locator(".why");
     await why.waitFor();
     expect(await why.evaluate((each) => each.scrollWidth <= each.clientWidth)).toBe(true);
+    expect(await row("attic").getByRole("button").allInnerTexts()).toEqual(["Stop dialling"]);
     await screenshot(page, "workers-dialling");
+    await page.getByRole("button", { name: "Stop dialling attic" }).click();
+    await row("attic").waitFor({ state: "detached" });
+  });
+
+  it("has a name of its own: that of a worker is refused, and the worker stays", async () => {
+    await page.getByLabel("Worker to dial").fill("lab1=127.0.0.1:9");
+    await page.keyboard.press("Enter");
+    await page.locator("#dial-fault").getByText("lab1").waitFor();
+    expect(app.complaints.splice(0).every((text) => text.includes("409"))).toBe(true);
+    expect(await row("lab1").count()).toBe(1);
+    expect(await toldState("lab1")).toMatch(working);
   });
 });
 

@@ -35,6 +35,10 @@ export async function getJson<T>(path: string, signal?: AbortSignal): Promise<T>
   return (await response.json()) as T;
 }
 
+export async function remove(path: string): Promise<void> {
+  await request(path, { method: "DELETE" });
+}
+
 export async function postJson<T>(path: string, body: unknown = {}): Promise<T> {
   const response = await request(path, {
     method: "POST",

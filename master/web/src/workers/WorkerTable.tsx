@@ -1,5 +1,5 @@
 import { useMemo } from "preact/hooks";
-import { postJson } from "../app/api";
+import { postJson, remove } from "../app/api";
 import { ageOf } from "../app/clock";
 import { confirm } from "../app/confirm";
 import { count, duration, short } from "../app/format";
@@ -12,6 +12,10 @@ type Verb = "drain" | "undrain" | "ban" | "unban";
 
 function ask(worker: Worker, verb: Verb): void {
   postJson(`/workers/${encodeURIComponent(worker.name)}/${verb}`).catch(tellError);
+}
+
+function stopDialling(worker: Worker): void {
+  remove(`/workers/dial/${encodeURIComponent(worker.name)}`).catch(tellError);
 }
 
 function askToBan(worker: Worker): void {
@@ -130,18 +134,22 @@ function Steering({ worker }: { worker: Worker }) {
         Unban
       </button>
     );
+  if (state === "dialling")
+    return (
+      <button onClick={() => stopDialling(worker)} aria-label={`Stop dialling ${name}`}>
+        Stop dialling
+      </button>
+    );
   const verb = state === "drained" ? "undrain" : "drain";
   return (
     <>
-      {state !== "dialling" && (
-        <button
-          onClick={() => ask(worker, verb)}
-          aria-label={`${verb} ${name}`}
-          title={verb === "drain" ? "It gets nothing more; what it holds goes to others at once" : "Work again"}
-        >
-          {verb === "drain" ? "Drain" : "Undrain"}
-        </button>
-      )}
+      <button
+        onClick={() => ask(worker, verb)}
+        aria-label={`${verb} ${name}`}
+        title={verb === "drain" ? "It gets nothing more; what it holds goes to others at once" : "Work again"}
+      >
+        {verb === "drain" ? "Drain" : "Undrain"}
+      </button>
       {worker.kind === "remote" && (
         <button onClick={() => askToBan(worker)} aria-label={`Ban ${name}`}>
           Ban
