@@ -1,6 +1,6 @@
 #include "master/cli/job_diagnostics.h"
 
-#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <sstream>
@@ -9,6 +9,7 @@
 #include "master/cli/interrupt.h"
 #include "master/cli/print_json.h"
 #include "master/cli/progress_line.h"
+#include "master/cli/statistics_tables.h"
 #include "master/cli/text.h"
 #include "master/cli/whole_number.h"
 #include "master/files/atomic_write.h"
@@ -27,38 +28,18 @@ std::string target_of(JobNumber job, const std::string& what, const Query& query
   return target;
 }
 
-std::string fixed(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", number);
-  return text;
+void write_bytes(const std::string& file, const std::string& bytes) {
+  write_atomically(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
-using Rows = std::vector<std::vector<std::string>>;
-
-Rows ray_rows(const json& statistics) {
-  Rows rows{{"COUNT", "TOTAL", "PER PIXEL"}};
-  for (const auto& [name, total] : statistics["counters"].items()) {
-    std::string words = printable(name);
-    std::ranges::replace(words, '_', ' ');
-    rows.push_back({words, total.dump(), fixed(statistics["mean_per_pixel"][name])});
-  }
-  return rows;
-}
-
-Rows hit_rows(const json& hits) {
-  std::uint64_t all = 0;
-  for (const json& leaf : hits) all += leaf["hits"].get<std::uint64_t>();
-  Rows rows{{"SOLID", "HITS", "SHARE"}};
-  for (const json& leaf : hits)
-    rows.push_back({printable(leaf["name"]), leaf["hits"].dump(), share(leaf["hits"], all)});
-  return rows;
-}
-
-Rows time_rows(const json& seconds) {
-  Rows rows{{"PHASE", "SECONDS"}};
-  for (const char* phase : {"waiting", "rendering", "threads"})
-    rows.push_back({phase, fixed(seconds[phase])});
-  return rows;
+/// Hits and tests, or why they are not there.
+std::string detail_text(const json& detail) {
+  if (detail["state"] == "done")
+    return table_of_tests(detail["tests"]) + "\n" + table_of_hits(detail["hits"]);
+  const std::string what = "hits and tests per ray: ";
+  if (detail["state"] != "making") return what + printable(detail["message"]) + "\n";
+  return what + percent(static_cast<std::uint64_t>(1000 * detail["progress"].get<double>()), 1000) +
+         " counted; ask again later, or wait for them with --wait\n";
 }
 
 }  // namespace
@@ -97,31 +78,43 @@ std::string made_for_job(JobNumber job, const std::string& what, const Query& qu
 
 void write_made_for_job(JobNumber job, const std::string& what, const Query& query, const char* doing,
                         const std::string& file) {
-  const std::string bytes = made_for_job(job, what, query, doing);
-  write_atomically(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  write_bytes(file, made_for_job(job, what, query, doing));
+}
+
+void write_partly_made_for_job(JobNumber job, const std::string& what, Query query, const std::string& file) {
+  const Progress now = made_so_far(target_of(job, what, query));
+  query.emplace_back("partial", "1");
+  write_bytes(file, now.bytes ? *now.bytes : get_bytes(target_of(job, what, query)));
+  if (!now.bytes)
+    throw CommandError(
+        ExitCode::partly_done,
+        "only " + percent(static_cast<std::uint64_t>(1000 * now.share), 1000) + " of the pixels were there");
 }
 
 std::string frame_text(const std::optional<std::uint32_t>& frame) {
   return frame ? std::to_string(*frame) : "";
 }
 
-void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& frame, bool as_json) {
-  const json statistics =
-      json::parse(made_for_job(job, "statistics", {{"frame", frame_text(frame)}}, "counting"));
-  if (as_json) return print_json(statistics);
-  const json& detail = statistics["detail"];
-  const std::string hits = detail["state"] == "done" ? table(hit_rows(detail["hits"]))
-                                                     : "hits: " + printable(detail["message"]) + "\n";
-  std::printf("%s pixels\n\n%s\n%s\n%s", statistics["pixels"].dump().c_str(),
-              table(ray_rows(statistics)).c_str(), hits.c_str(),
-              table(time_rows(statistics["seconds"])).c_str());
+void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& frame,
+                          const StatisticsWishes& wishes) {
+  const Query query{{"frame", frame_text(frame)}};
+  const auto whole = [&] { return json::parse(made_for_job(job, "statistics", query, "counting")); };
+  const json so_far = get_json(target_of(job, "statistics", query));
+  const bool waits =
+      so_far["detail"]["state"] == "making" && (wishes.whole || has_ended(get_json(job_target(job))));
+  if (wishes.as_json) return print_json(waits ? whole() : so_far);
+  constexpr std::array phases{"waiting", "rendering", "threads"};
+  std::printf("%s\n\n%s\n%s\n", headline(so_far["pixels"].dump(), so_far["samples_per_pixel"]).c_str(),
+              table_of_rays(so_far).c_str(), table_of_times(so_far["seconds"], phases).c_str());
+  std::fflush(stdout);
+  std::fputs(detail_text(waits ? whole()["detail"] : so_far["detail"]).c_str(), stdout);
 }
 
 void print_job_trace(JobNumber job, const Query& query, bool as_json) {
-  if (as_json) return print_json(json::parse(made_for_job(job, "trace", query, "tracing")));
+  if (as_json) return print_json(json::parse(get_bytes(target_of(job, "trace", query))));
   Query as_text = query;
   as_text.emplace_back("format", "text");
-  std::istringstream lines(made_for_job(job, "trace", as_text, "tracing"));
+  std::istringstream lines(get_bytes(target_of(job, "trace", as_text)));
   for (std::string line; std::getline(lines, line);) std::puts(printable(line).c_str());
 }
 

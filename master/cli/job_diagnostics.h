@@ -26,10 +26,19 @@ std::string made_for_job(JobNumber job, const std::string& what, const Query& qu
 void write_made_for_job(JobNumber job, const std::string& what, const Query& query, const char* doing,
                         const std::string& file);
 
+/// What is there of it; unless it is all, throws CommandError with partly_done after it is written.
+void write_partly_made_for_job(JobNumber job, const std::string& what, Query query, const std::string& file);
+
 /// In a request: empty for the first frame, or for all.
 std::string frame_text(const std::optional<std::uint32_t>& frame);
 
-void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& frame, bool as_json);
+struct StatisticsWishes {
+  bool as_json = false;
+  bool whole = false;  // also of a job that still renders, and then waited for
+};
+/// The counters at once; of a job that has ended, or as wished, the rest when it is counted.
+void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& frame,
+                          const StatisticsWishes& wishes);
 /// As lines, or as JSON.
 void print_job_trace(JobNumber job, const Query& query, bool as_json);
 

@@ -23,7 +23,7 @@ struct MapArguments {
   std::optional<JobNumber> job;
   std::string kind, reduction = "majority", output;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  bool compatible = false, legend = false;
+  bool compatible = false, legend = false, partial = false;
   std::string palette = "original";
   std::optional<std::string> range;  // LOW,HIGH
 
@@ -75,18 +75,21 @@ MapRequest request_of(const MapArguments& a) {
 
 ExitCode fetch_map(const MapArguments& a) {
   const std::optional<MapRange> range = range_of(a);
-  write_made_for_job(*a.job, "maps/" + a.kind,
-                     {{"format", a.to_csv()   ? "csv"
-                                 : a.to_exr() ? "exr"
-                                              : "png"},
-                      {"reduce", a.reduction},
-                      {"compat", a.compatible ? "1" : ""},
-                      {"scale", a.palette},
-                      {"low", range ? number_text(range->low) : ""},
-                      {"high", range ? number_text(range->high) : ""},
-                      {"legend", a.legend ? "1" : ""},
-                      {"frame", frame_text(a.picture.frame)}},
-                     "mapping", a.output);
+  const Query query{{"format", a.to_csv()   ? "csv"
+                               : a.to_exr() ? "exr"
+                                            : "png"},
+                    {"reduce", a.reduction},
+                    {"compat", a.compatible ? "1" : ""},
+                    {"scale", a.palette},
+                    {"low", range ? number_text(range->low) : ""},
+                    {"high", range ? number_text(range->high) : ""},
+                    {"legend", a.legend ? "1" : ""},
+                    {"frame", frame_text(a.picture.frame)}};
+  const std::string what = "maps/" + a.kind;
+  if (a.partial)
+    write_partly_made_for_job(*a.job, what, query, a.output);
+  else
+    write_made_for_job(*a.job, what, query, "mapping", a.output);
   return ExitCode::done;
 }
 
@@ -150,6 +153,8 @@ void add_map_command(CLI::App& app, Command& chosen) {
   command->add_option(
       "--range", arguments->range,
       "Values of the first and last colour, LOW,HIGH, to compare pictures; else the map's own");
+  command->add_flag("--partial", arguments->partial, "Of a job: what is there; exit code 7 unless it is all")
+      ->needs("--job");
   command->add_flag("--legend", arguments->legend, "What the colours mean, beside the .png");
   command->footer("Kinds:" + kinds +
                   "\nExamples:\n  rayfarm map depth scenes/circus.lua -o depth.png\n  rayfarm map worker "

@@ -92,14 +92,20 @@ std::string get_bytes(const std::string& target) {
   return asked({"GET", "", target, "", made_patience}).body;
 }
 
-std::string get_made(const std::string& target, const std::function<void(double share)>& progress) {
+Progress made_so_far(const std::string& target) {
   const char* wait = target.find('?') == std::string::npos ? "?wait=1" : "&wait=1";  // seconds between news
+  HttpReply reply = asked({"GET", "", target + wait, "", made_patience});
+  if (reply.status != 202) return {std::move(reply.body), 1};
+  const json making = parsed(reply);
+  const json& part = making.contains("detail") ? making["detail"] : making;
+  return {std::nullopt, part.value("progress", 0.0)};
+}
+
+std::string get_made(const std::string& target, const std::function<void(double share)>& progress) {
   for (;;) {
-    HttpReply reply = asked({"GET", "", target + wait, "", made_patience});
-    if (reply.status != 202) return std::move(reply.body);
-    const json making = parsed(reply);
-    const json& part = making.contains("detail") ? making["detail"] : making;
-    progress(part.value("progress", 0.0));
+    Progress now = made_so_far(target);
+    if (now.bytes) return std::move(*now.bytes);
+    progress(now.share);
   }
 }
 

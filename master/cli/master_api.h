@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace rayfarm {
@@ -14,6 +15,12 @@ nlohmann::json get_json(const std::string& target);
 std::string get_bytes(const std::string& target);
 /// The bytes at the target, when they have been made; how far they are (0 to 1) is told meanwhile.
 std::string get_made(const std::string& target, const std::function<void(double share)>& progress);
+/// How far it is now, or within a second.
+struct Progress {
+  std::optional<std::string> bytes;  // when they have been made
+  double share = 0;                  // until then, 0 to 1
+};
+Progress made_so_far(const std::string& target);
 nlohmann::json post_json(const std::string& target, const nlohmann::json& body);
 /// The same, again and again while the master is too busy or too full; while_busy() is called between.
 nlohmann::json post_json_patiently(const std::string& target, const nlohmann::json& body,

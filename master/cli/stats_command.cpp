@@ -12,7 +12,7 @@
 #include "master/cli/picture_options.h"
 #include "master/cli/print_json.h"
 #include "master/cli/progress_line.h"
-#include "master/cli/text.h"
+#include "master/cli/statistics_tables.h"
 #include "master/diagnostics/leaf_names.h"
 #include "master/diagnostics/statistics.h"
 #include "master/http/settings_json.h"
@@ -26,7 +26,7 @@ struct StatsArguments {
   PictureOptions picture;
   std::optional<JobNumber> job;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  bool json = false;
+  bool json = false, wait = false;
 };
 
 struct Phase {
@@ -60,57 +60,19 @@ nlohmann::json to_json(const Report& r) {
           {"seconds", seconds}};
 }
 
-using Table = std::vector<std::vector<std::string>>;
-
-std::string thousandths(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", number);
-  return text;
-}
-
-Table table_of_rays(const Report& r) {
-  const RayCounters& c = r.statistics.rays;
-  Table rays{{"RAYS", "TOTAL", "PER PIXEL"}};
-  const auto row = [&](const char* name, std::uint64_t total) {
-    rays.push_back({name, std::to_string(total), thousandths(static_cast<double>(total) / r.pixels())});
-  };
-  row("primary", c.primary), row("reflected", c.reflected), row("refracted", c.refracted);
-  row("shadow", c.shadow), row("all", c.rays());
-  row("hits", c.primary_hits + c.secondary_hits), row("misses", c.misses());
-  row("lost rays", c.lost), row("bad samples", c.bad_samples);
-  return rays;
-}
-
-Table table_of_tests(const Report& r) {
-  Table tests{{"PER RAY", "BOXES TESTED", "SOLIDS TESTED", "CROSSINGS FOUND"}};
-  const nlohmann::json kinds = tests_json(r.statistics);
-  for (const char* kind : {"nearest", "shadow"}) {
-    std::vector<std::string> row{kind};
-    for (const char* mean : {"boxes_per_ray", "leaves_per_ray", "crossings_per_ray"})
-      row.push_back(thousandths(kinds.at(kind).at(mean)));
-    tests.push_back(row);
-  }
-  return tests;
-}
-
 void print(const Report& r) {
-  const RayCounters& c = r.statistics.rays;
-  Table hits{{"SOLID", "HITS", "SHARE"}};
-  for (const std::size_t leaf : leaves_hit(r.statistics))
-    hits.push_back({printable(r.names[leaf]), std::to_string(r.statistics.hits[leaf]),
-                    share(r.statistics.hits[leaf], c.primary_hits + c.secondary_hits)});
-
-  Table times{{"PHASE", "SECONDS"}};
-  for (const Phase& phase : r.phases) times.push_back({phase.name, thousandths(phase.seconds)});
-
-  std::printf("%ux%u pixels, %s samples per pixel\n\n%s\n%s\n%s\n%s", r.settings.width, r.settings.height,
-              thousandths(r.samples_per_pixel()).c_str(), table(table_of_rays(r)).c_str(),
-              table(table_of_tests(r)).c_str(), table(hits).c_str(), table(times).c_str());
+  const nlohmann::json report = to_json(r);
+  std::vector<const char*> phases;
+  for (const Phase& phase : r.phases) phases.push_back(phase.name);
+  const std::string size = std::to_string(r.settings.width) + "x" + std::to_string(r.settings.height);
+  std::printf("%s\n\n%s\n%s\n%s\n%s", headline(size, r.samples_per_pixel()).c_str(),
+              table_of_rays(report).c_str(), table_of_tests(report["tests"]).c_str(),
+              table_of_hits(report["hits"]).c_str(), table_of_times(report["seconds"], phases).c_str());
 }
 
 ExitCode stats(const StatsArguments& a) {
   if (a.job) {
-    print_job_statistics(*a.job, a.picture.frame, a.json);
+    print_job_statistics(*a.job, a.picture.frame, {a.json, a.wait});
     return ExitCode::done;
   }
   note_interrupts();
@@ -155,6 +117,10 @@ void add_stats_command(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(1u, 1024u));
   add_job_option(*command, arguments->job);
   command->add_flag("--json", arguments->json, "Result as JSON");
+  command
+      ->add_flag("--wait", arguments->wait,
+                 "Of a job that still renders: wait until hits and tests per ray are counted too")
+      ->needs("--job");
   command->footer("Examples:\n  rayfarm stats scenes/circus.lua --spp 4\n  rayfarm stats --job 7");
   command->callback([arguments, &chosen] { chosen = [arguments] { return stats(*arguments); }; });
 }

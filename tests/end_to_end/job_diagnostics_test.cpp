@@ -74,7 +74,7 @@ TEST_F(JobDiagnostics, StatisticsAreThoseOfTheScene) {
   for (const auto& [name, total] : here["counters"].items()) EXPECT_EQ(farm["counters"][name], total) << name;
   EXPECT_EQ(farm["detail"]["hits"], here["hits"]);
   const std::string table = out_of({"stats", "--job", id});
-  for (const char* word : {"primary", "SOLID", "waiting"})
+  for (const char* word : {"primary", "lost rays", "SOLIDS TESTED", "SOLID ", "waiting"})
     EXPECT_NE(table.find(word), std::string::npos) << table;
 }
 
@@ -111,6 +111,23 @@ TEST_F(JobDiagnostics, WhatIsNotThereIsNamed) {
   expect_refusal({"map", "depth", scene_file("circus"), "--job", id, "-o", file}, 2, "--job");
   expect_refusal({"stats", "--job", id, "--spp", "4"}, 2, "--job");
   EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+// The counters once waited for the whole picture to be traced again.
+TEST_F(JobDiagnostics, WhatIsKnownOfAJobThatRendersIsToldAtOnce) {
+  const std::string id = submit(slow);
+  const std::string text = out_of({"stats", "--job", id});
+  for (const char* word : {"primary", "lost rays", "waiting", "wait for them with --wait"})
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+  EXPECT_EQ(json::parse(out_of({"stats", "--job", id, "--json"}))["detail"]["state"], "making");
+  const std::string file = folder / "part.csv";
+  expect_refusal({"map", "all-rays", "--job", id, "--partial", "-o", file}, 7, "of the pixels were there");
+  const std::string part = content_of(file);
+  EXPECT_EQ(std::ranges::count(part, '\n'), 65);
+  out_of({"cancel", id});  // it would leave little time for what comes
+  const std::string held = submit(picture, {"--hold"});
+  const std::string whole = file_of({"map", "depth", "--job", held}, ".csv");
+  EXPECT_EQ(file_of({"map", "depth", "--job", held, "--partial"}, ".csv"), whole);
 }
 
 TEST_F(JobDiagnostics, AStoppingMasterDoesNotWaitForWhatItMakes) {
