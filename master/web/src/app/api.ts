@@ -35,6 +35,10 @@ export async function getJson<T>(path: string, signal?: AbortSignal): Promise<T>
   return (await response.json()) as T;
 }
 
+export async function getBlob(path: string): Promise<Blob> {
+  return (await request(path, {})).blob();
+}
+
 export async function remove(path: string): Promise<void> {
   await request(path, { method: "DELETE" });
 }

@@ -1,5 +1,5 @@
 // Files of what is shown, made by the master from its own numbers where it can.
-import { getMade } from "../app/api";
+import { getBlob, getMade } from "../app/api";
 import { chosenFrame, frameOf, frameQuery, shownFrame } from "../app/frames";
 import { layer, selectedJob, tell, tellError } from "../app/state";
 import type { Job, LayerChoice, MapEntry } from "../app/types";
@@ -78,7 +78,7 @@ export function download(blob: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-async function fetchAndSave(path: string, name: string): Promise<void> {
+async function makeAndSave(path: string, name: string): Promise<void> {
   let told = false;
   const response = await getMade(path, () => {
     if (!told) tell(`${name} is being made`);
@@ -93,7 +93,10 @@ export function save(format: Format): void {
   const entry = currentEntry.peek();
   if (!job || !entry) return;
   if (!map) {
-    fetchAndSave(`/jobs/${job.id}/picture.${format}${frameQuery(shownFrame.peek(), "?")}`, `${baseName(job)}.${format}`).catch(tellError);
+    getBlob(`/jobs/${job.id}/picture.${format}${frameQuery(shownFrame.peek(), "?")}`).then(
+      (blob) => download(blob, `${baseName(job)}.${format}`),
+      tellError,
+    );
     return;
   }
   const shown = shownOf(map);
@@ -105,7 +108,7 @@ export function save(format: Format): void {
     return;
   }
   const path = mapPath(job.id, layer.peek(), map, format, shown, rangeOf(entry, map, shown), shownFrame.peek());
-  fetchAndSave(path, `${baseName(job)}-${map.name}.${format}`).catch(tellError);
+  makeAndSave(path, `${baseName(job)}-${map.name}.${format}`).catch(tellError);
 }
 
 /// The selected values as they are here.
