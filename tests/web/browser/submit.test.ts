@@ -73,7 +73,7 @@ describe("a job of the master's scenes", () => {
   });
 
   it("is seen before it is finished, can be paused, and becomes the exact picture", async () => {
-    await fillForm(page, { name: "watched flake", depth: 5, width: 160, height: 120, spp: 128 });
+    await fillForm(page, { name: "watched flake", depth: 5, width: 160, height: 120, spp: 512 });
     await submit(page, "watched flake");
     await page.locator('section.picture[data-layer-state="making"] .picture-stage[data-ready="true"]').waitFor();
     await page.getByRole("button", { name: "Pause" }).click();
