@@ -45,10 +45,11 @@ std::optional<PixelFacts> PixelMapper::facts(Pixel pixel, const std::function<bo
   // Where an adaptive sampler puts its samples depends on all that they show.
   const bool first_hits_do = request_.kind->source == MapSource::surfaces && !is_adaptive(settings_.sampler);
   tracer_.observer.begin_pixel();
-  const double begin = thread_seconds();
+  const bool is_timed = request_.kind->source == MapSource::time;  // to ask for the time is a system call
+  const double begin = is_timed ? thread_seconds() : 0;
   if (!(first_hits_do ? trace_first_hits(pixel, stop) : trace_all(pixel, stop))) return std::nullopt;
   PixelFacts facts = tracer_.observer.facts();
-  facts.seconds = thread_seconds() - begin;
+  if (is_timed) facts.seconds = thread_seconds() - begin;
   return facts;
 }
 
