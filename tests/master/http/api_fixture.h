@@ -13,32 +13,21 @@ namespace rayfarm {
 
 class Api : public testing::Test {
  protected:
-  ApiResponse get(const std::string& target) {
-    return answer({"GET", target, "", "", "", "", ""}, {.farm = door,
-                                                        .feeder = feeder,
-                                                        .diagnostics = diagnostics,
-                                                        .master = master,
-                                                        .app = app,
-                                                        .scenes = scenes,
-                                                        .assets = assets});
-  }
+  ApiResponse get(const std::string& target) { return answer({"GET", target, "", "", "", "", ""}, doors()); }
   ApiResponse post(const std::string& target, const nlohmann::json& body = nlohmann::json::object()) {
-    return answer({"POST", target, "", "", "", "", body.dump()}, {.farm = door,
-                                                                  .feeder = feeder,
-                                                                  .diagnostics = diagnostics,
-                                                                  .master = master,
-                                                                  .app = app,
-                                                                  .scenes = scenes,
-                                                                  .assets = assets});
+    return answer({"POST", target, "", "", "", "", body.dump()}, doors());
   }
   ApiResponse remove(const std::string& target) {
-    return answer({"DELETE", target, "", "", "", "", ""}, {.farm = door,
-                                                           .feeder = feeder,
-                                                           .diagnostics = diagnostics,
-                                                           .master = master,
-                                                           .app = app,
-                                                           .scenes = scenes,
-                                                           .assets = assets});
+    return answer({"DELETE", target, "", "", "", "", ""}, doors());
+  }
+  Doors doors() {
+    return {.farm = door,
+            .feeder = feeder,
+            .diagnostics = diagnostics,
+            .master = master,
+            .app = app,
+            .scenes = scenes,
+            .assets = assets};
   }
   nlohmann::json get_json(const std::string& target) { return nlohmann::json::parse(get(target).body); }
   std::string submit(const JobSpec& spec = small_job()) {
