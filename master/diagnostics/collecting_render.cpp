@@ -31,12 +31,13 @@ class Stopwatch {
 
 CollectingRender::CollectingRender(const World& world, const RenderSettings& settings,
                                    const std::vector<const MapKind*>& maps)
-    : world_(world), settings_(settings), view_(view_of(world, settings, false)), kinds_(maps) {
+    : world_(world), settings_(settings), view_(view_of(world, settings, false)) {
   const std::size_t pixels = std::size_t{settings.width} * settings.height;
-  for (const MapKind* kind : kinds_) {
+  for (const MapKind* kind : maps) {
     is_timed_ = is_timed_ || kind->source == MapSource::time;
     maps_.push_back({{settings.width, settings.height}, kind->channels.size(), {}});
     maps_.back().values.resize(pixels * kind->channels.size());
+    outlets_.push_back({kind->put, maps_.back().values.data(), kind->channels.size()});
   }
 }
 
@@ -49,13 +50,13 @@ void CollectingRender::also_collect(CloudFile& cloud) {
 
 CollectingRender::Images CollectingRender::render_tile(std::uint32_t tile, PassSet passes,
                                                        const std::function<bool()>& stop) {
-  if (!cloud_ && kinds_.empty()) return rayfarm::render_tile(world_, settings_, tile, passes, stop);
+  if (!cloud_ && outlets_.empty()) return rayfarm::render_tile(world_, settings_, tile, passes, stop);
   const PixelObserver pixels(world_, settings_, Reduction::majority);
   if (!cloud_) return render_maps(pixels, tile, passes, stop);
 
   CloudPart part(*cloud_, ranks_[tile]);
   Images images;
-  if (kinds_.empty()) {
+  if (outlets_.empty()) {
     Tracer<WithCloud<CountingObserver>> tracer(world_, settings_, {{}, &part});
     images = render_passes(tracer, settings_, tile, passes,
                            [&](Pixel pixel) { return pixel_sum(tracer, settings_, pixel, stop); });
@@ -91,8 +92,7 @@ CollectingRender::Images CollectingRender::render_maps(Observer observer, std::u
 
 void CollectingRender::put(Pixel pixel, const PixelFacts& facts) {
   const std::size_t place = std::size_t{pixel.y} * settings_.width + pixel.x;
-  for (std::size_t i = 0; i < kinds_.size(); ++i)
-    kinds_[i]->put(facts, view_, &maps_[i].values[place * maps_[i].channels]);
+  for (const Outlet& outlet : outlets_) outlet.put(facts, view_, outlet.values + place * outlet.channels);
 }
 
 }  // namespace rayfarm

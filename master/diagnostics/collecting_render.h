@@ -36,9 +36,15 @@ class CollectingRender {
   const World& world_;
   const RenderSettings& settings_;
   MapView view_;
-  std::vector<const MapKind*> kinds_;
   bool is_timed_ = false;
   std::vector<Map> maps_;  // each pixel is written by one thread
+  /// Where a map's values go.
+  struct Outlet {
+    decltype(MapKind::put) put;
+    float* values;
+    std::size_t channels;
+  };
+  std::vector<Outlet> outlets_;  // of maps_
   CloudFile* cloud_ = nullptr;
   std::vector<std::uint32_t> ranks_;  // of the tiles, by number
 };

@@ -32,7 +32,7 @@ PixelSurfaces::Sums& PixelSurfaces::Sums::operator+=(const Sums& o) {
   return *this;
 }
 
-Surface PixelSurfaces::Sums::mean(const Hit& any) const {
+Surface PixelSurfaces::Sums::mean(const Glimpse& any) const {
   const auto all = static_cast<double>(weight);
   // Opposite normals cancel out; then one of them stands for all.
   const bool cancelled = normal == Vec3d{};
@@ -83,7 +83,7 @@ void PixelSurfaces::add_new(const Hit& sample, std::uint32_t weight) {
     last_ = static_cast<std::size_t>(weakest - ranks_.begin());
   }
   Rank& rank = ranks_[last_];
-  rank.first = sample;
+  rank.first = Glimpse(sample);
   rank.flat_faces = flat_faces_of(world_->leaves[sample.leaf].solid);
   rank.is_cap = rank.flat_faces == FlatFaces::caps && is_cap(sample);
   rank.sums = {};

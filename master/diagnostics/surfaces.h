@@ -34,12 +34,24 @@ enum class Reduction : std::uint8_t {
   median,   // the sample in the middle by distance, those that hit nothing behind all others
 };
 
+/// What tells surfaces apart of a hit.
+struct Glimpse {
+  explicit Glimpse(const Hit& hit)
+      : leaf(hit.leaf), leaf_entering(hit.leaf_entering), t(hit.t), point(hit.point), normal(hit.normal) {}
+  Glimpse() = default;
+
+  std::uint32_t leaf = 0;
+  bool leaf_entering = false;
+  double t = 0;
+  Vec3d point{}, normal{};
+};
+
 /// Whether two points of a face lie on one sheet of it, as seen from about the same place.
 ///
 /// Of a sheet that bends one way, the chord between two points rises from the tangent plane at one of them and
 /// comes down to that at the other. Of two sheets, one behind the other and both facing the viewer, it comes
 /// down to both. Points side by side may have a relief between them.
-inline bool on_one_sheet(const Hit& a, const Hit& b) {
+inline bool on_one_sheet(const Glimpse& a, const Hit& b) {
   constexpr double flat = 0.05, steepest = 0.8;  // sines of the angles between chord and tangent planes
   const Vec3d chord = b.point - a.point;
   const double length_2 = dot(chord, chord);
@@ -102,10 +114,10 @@ class PixelSurfaces {
       normal += factor * sample.normal;
     }
     Sums& operator+=(const Sums& o);
-    Surface mean(const Hit& any) const;
+    Surface mean(const Glimpse& any) const;
   };
   struct Rank {
-    Hit first;
+    Glimpse first;
     FlatFaces flat_faces = FlatFaces::none;  // of the leaf
     bool is_cap = false;                     // of a cylinder or cone
     Sums sums;
