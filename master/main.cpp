@@ -3,10 +3,13 @@
 #include <spdlog/spdlog.h>
 
 #include <asio/post.hpp>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "common/daemon/command_line.h"
 #include "common/daemon/stop_signals.h"
@@ -24,18 +27,19 @@ namespace {
 constexpr auto examples = R"(
 Examples:
   rayfarm-master                                        renders with this PC's threads; page at http://127.0.0.1:5412
-  rayfarm-master --listen 0.0.0.0:5411 --insecure       takes in workers from other PCs
-  rayfarm-master --dial lab1=192.168.1.11 --dial lab2=192.168.1.12 --insecure
+  rayfarm-master --state ~/farm --listen 0.0.0.0:5411   takes in workers from other PCs: rayfarm token new
+  rayfarm-master --state ~/farm --dial lab1=192.168.1.11 --dial lab2=192.168.1.12
   rayfarm-master --config /etc/rayfarm/master.toml      keys are the options: threads = 0, dial = ["lab1=192.168.1.11"]
 
-Until the farm is encrypted, only addresses on this PC are used unless --insecure is given.
+Whatever leaves this PC is encrypted, with keys that are made in the state folder at the first start.
 )";
 
 struct Arguments {
   std::string state, listen = "127.0.0.1:5411", http = "127.0.0.1:5412";
+  std::string certificate, key;
   std::vector<std::string> dial;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  bool insecure = false;
+  Openness openness;
 };
 
 void expect_distinct_names(const std::vector<std::string>& targets) {
@@ -46,9 +50,10 @@ void expect_distinct_names(const std::vector<std::string>& targets) {
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
-  declare_common_options(app, arguments.insecure, examples);
-  app.add_option("--state", arguments.state,
-                 "A folder for this master alone; jobs do not outlive a master yet")
+  declare_common_options(app, arguments.openness, examples);
+  app.add_option(
+         "--state", arguments.state,
+         "A folder for this master alone: its keys and who it lets in; jobs do not outlive a master yet")
       ->type_name("FOLDER");
   app.add_option("--listen", arguments.listen, "Where workers come; port 0: any free one")
       ->type_name("ADDRESS[:PORT]")
@@ -56,6 +61,12 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--http", arguments.http, "Where the command and the browser come")
       ->type_name("ADDRESS:PORT")
       ->capture_default_str();
+  CLI::Option* certificate = app.add_option("--cert", arguments.certificate,
+                                            "For browsers: another certificate than the farm's own, as PEM")
+                                 ->type_name("FILE");
+  CLI::Option* key =
+      app.add_option("--key", arguments.key, "Its private key")->type_name("FILE")->needs(certificate);
+  certificate->needs(key);
   app.add_option("--threads", arguments.threads, "Threads of its own that render; 0: none")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
@@ -74,38 +85,101 @@ void dial_all(Sessions& sessions, const std::vector<std::string>& targets) {
     }
 }
 
+/// The folder of a master, and what it keeps there.
+struct State {
+  explicit State(const std::string& path)
+      : folder(path), access(path, own_hosts(), std::chrono::system_clock::now()) {}
+  StateFolder folder;
+  Access access;
+};
+
+Exposure exposure_of(const Openness& openness) {
+  return openness.insecure ? Exposure::insecure
+         : openness.closed ? Exposure::closed
+                           : Exposure::loopback_only;
+}
+
+Security security_of(const Openness& openness, const State* state) {
+  Security security{exposure_of(openness)};
+  if (state) security.tls.emplace(state->access.identity(), state->access.authority(), PeerRole::worker);
+  return security;
+}
+
+std::string content_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Identity identity_in(const std::string& certificate_file, const std::string& key_file) try {
+  Identity identity{content_of(key_file), content_of(certificate_file)};
+  if (!is_of_key(identity.certificate, identity.key))
+    throw CertificateError("the key is another certificate's");
+  return identity;
+} catch (const CertificateError& error) {
+  throw std::runtime_error("--cert " + certificate_file + " with --key " + key_file +
+                           " cannot be used: " + error.what());
+}
+
+/// What browsers are shown; behind the farm's own certificate its authority, which they may have been told to trust.
+std::optional<Identity> web_identity(const Arguments& arguments, const Access* access) {
+  if (!arguments.certificate.empty()) return identity_in(arguments.certificate, arguments.key);
+  if (!access) return std::nullopt;
+  return Identity{access->identity().key, access->identity().certificate + access->authority()};
+}
+
+/// As other PCs see it.
+std::string farm_address(const Address& listening) {
+  const bool is_any = listening.host == "0.0.0.0" || listening.host == "::";
+  return text_of(Address{is_any ? outward_address() : listening.host, listening.port});
+}
+
 /// Returns after a clean stop; throws what kept the master from starting.
-void serve(const Arguments& arguments) {
+int serve(const Arguments& arguments) {
   allow_many_descriptors();
-  std::optional<StateFolder> state;
+  std::optional<State> state;
   if (!arguments.state.empty()) state.emplace(arguments.state);
+  Access* const access = state ? &state->access : nullptr;
 
   // Never destroyed: that would wait for names that are still being looked up, and hold up a clean stop.
   static auto& io = *new asio::io_context;
   LiveFarm farm;
   Sessions sessions(io, farm, parse_address(arguments.listen, default_farm_port),
-                    Security{arguments.insecure ? Exposure::insecure : Exposure::loopback_only});
+                    security_of(arguments.openness, state ? &*state : nullptr), {}, access);
   FarmDoor door([&](std::function<void(Farm&, FarmTime)> question) {
     asio::post(io, [&farm, question = std::move(question)] { farm.apply(question); });
   });
   FrameFeeder feeder(door);
   Diagnostics diagnostics(std::max(1u, std::thread::hardware_concurrency()));
+  std::string last_told;  // one that comes again and again is told of once
   const MasterDoor master{
       [&](const std::string& target) { sessions.dial(parse_dial_target(target)); },
       [&] { return sessions.dialling(); },
       [&](std::uint64_t after) { return farm.log().after(after); },
       [&](const std::string& name) { return sessions.stop_dialling(name); },
+      [&](const std::set<std::string>& certificates) { sessions.cut_off(certificates); },
+      [&](const std::string& line) {
+        asio::post(io, [&farm, &last_told, line] {
+          if (std::exchange(last_told, line) != line) farm.note({true, line, ""});
+        });
+      },
+      farm_address(sessions.listening_at()),
   };
   const AppFiles app;
   const SceneLibrary scenes;
   AssetStore assets;
-  const HttpServer http({arguments.http, arguments.insecure}, {.farm = door,
-                                                               .feeder = feeder,
-                                                               .diagnostics = diagnostics,
-                                                               .master = master,
-                                                               .app = app,
-                                                               .scenes = scenes,
-                                                               .assets = assets});
+  const HttpSettings http_settings{.listen = arguments.http,
+                                   .exposure = exposure_of(arguments.openness),
+                                   .identity = web_identity(arguments, access),
+                                   .outward_host = outward_address()};
+  const HttpServer http(http_settings, {.farm = door,
+                                        .feeder = feeder,
+                                        .diagnostics = diagnostics,
+                                        .master = master,
+                                        .app = app,
+                                        .scenes = scenes,
+                                        .assets = assets,
+                                        .access = access});
   std::optional<LocalThreads> local;
   if (arguments.threads > 0) local.emplace(io, farm, arguments.threads);
   dial_all(sessions, arguments.dial);
@@ -120,6 +194,7 @@ void serve(const Arguments& arguments) {
             << std::endl;
   notify_ready();
   run_until_end(io, sessions.run());
+  return 0;
 }
 
 }  // namespace
@@ -130,5 +205,5 @@ int main(int argc, char** argv) {
   rayfarm::Arguments arguments;
   CLI::App app("Shares pictures out among workers and this PC's own threads.", "rayfarm-master");
   rayfarm::declare(app, arguments);
-  return rayfarm::run_daemon(app, argc, argv, [&] { rayfarm::serve(arguments); });
+  return rayfarm::run_daemon(app, argc, argv, [&] { return rayfarm::serve(arguments); });
 }

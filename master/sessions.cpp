@@ -6,30 +6,17 @@
 #include <asio/redirect_error.hpp>
 
 #include "common/net/until_first_ends.h"
+#include "common/work/engine.h"
 #include "master/hand_in.h"
+#include "master/objection.h"
 
 namespace rayfarm {
 namespace {
 
 using asio::ip::tcp;
 
-constexpr std::uint32_t most_threads = 4096;
-
-/// Why a worker that opens with this is not taken in; empty when it is.
-std::string objection_to(const ToMaster& first) {
-  if (const auto* goodbye = std::get_if<Goodbye>(&first)) return "it said goodbye: " + goodbye->reason;
-  const auto* hello = std::get_if<Hello>(&first);
-  if (!hello) return "the first message must be Hello";
-  if (hello->protocol != protocol_version)
-    return "rayfarm " + hello->version + " speaks protocol " + std::to_string(hello->protocol) +
-           ", this master (" RAYFARM_VERSION ") protocol " + std::to_string(protocol_version) +
-           ": install the same version on both PCs";
-  if (hello->name.empty()) return "a worker needs a name: give it one with --name";
-  if (hello->threads == 0 || hello->threads > most_threads)
-    return "a worker has 1 to " + std::to_string(most_threads) + " threads, not " +
-           std::to_string(hello->threads);
-  return "";
-}
+/// Of ADDRESS:PORT.
+std::string without_port(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
 
 }  // namespace
 
@@ -46,6 +33,10 @@ struct Sessions::Session {
   const Dialled* dialled;          // null: it came by itself
   std::optional<WorkerId> worker;  // once it is admitted
   std::string farewell;            // what it said when it went
+
+  const std::optional<PeerCertificate>& certificate() const { return connection.channel().peer(); }
+  /// Encrypted, and it has shown no certificate: it may ask for one, and for nothing else.
+  bool is_strangers() const { return connection.channel().is_encrypted() && !certificate(); }
 };
 
 struct Sessions::Dialled {
@@ -56,14 +47,17 @@ struct Sessions::Dialled {
 };
 
 Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Security security,
-                   DoorTimes times)
+                   DoorTimes times, Access* access)
     : io_(io),
       farm_(farm),
       security_(std::move(security)),
       times_(times),
+      access_(access),
       acceptor_(listen_at(io, listen, security_)),
       listening_at_{acceptor_.local_endpoint().address().to_string(), acceptor_.local_endpoint().port()},
-      ended_(io, std::chrono::steady_clock::time_point::max()) {}
+      ended_(io, std::chrono::steady_clock::time_point::max()) {
+  engine_fingerprint();  // rendered now, not while the first worker waits
+}
 
 Sessions::~Sessions() = default;
 
@@ -114,7 +108,6 @@ asio::awaitable<std::string> Sessions::try_stranger(tcp::socket socket) {
     auto greeting = until_first_ends(receive(channel, std::move(socket)), wait_until_stopping());
     co_await std::move(greeting);
     if (!channel) co_return "";
-    if (channel->is_encrypted() && !channel->peer()) throw ConnectionLost("it showed no certificate");
     auto serving = serve(std::move(*channel), nullptr);
     fault = co_await std::move(serving);
   } catch (const ConnectionLost& error) {
@@ -243,6 +236,7 @@ asio::awaitable<void> Sessions::converse(Session& session) {
     const ToMaster first = co_await session.connection.receive();
     open(session, first);
   } catch (const CodecError& error) {
+    if (session.is_strangers()) throw;
     refuse(session, error.what());
   }
   if (!session.worker) co_await session.connection.wait_for_end();
@@ -257,11 +251,41 @@ asio::awaitable<void> Sessions::converse(Session& session) {
 }
 
 void Sessions::open(Session& session, const ToMaster& first) {
+  if (session.is_strangers()) return pair(session, first);
+  check_certificate(session);
   const std::string objection = objection_to(first);
   if (objection.empty())
     admit(session, std::get<Hello>(first));
   else
     refuse(session, objection);
+}
+
+/// Who brings no certificate and no good code learns nothing, not even why.
+void Sessions::pair(Session& session, const ToMaster& first) {
+  const auto* join = std::get_if<Join>(&first);
+  if (!join) throw ConnectionLost("it showed no certificate");
+  if (const std::string objection = objection_to(join->versions, join->software); !objection.empty())
+    return refuse(session, objection);
+  if (!access_) throw ConnectionLost("it wants to be paired, and this master keeps no codes");
+  const std::string& peer = session.connection.peer();
+  const std::string made = access_->pair(*join, without_port(peer), std::chrono::system_clock::now());
+  farm_.note({false, "worker " + join->name + " at " + peer + " was paired", join->name});
+  session.connection.post(Paired{{made.begin(), made.end()}});
+  session.connection.finish();
+}
+
+void Sessions::check_certificate(const Session& session) const try {
+  if (!session.certificate() || !access_) return;
+  access_->check_worker(session.certificate()->facts, std::chrono::system_clock::now());
+} catch (const AccessRefused& refused) {
+  throw ConnectionLost("the certificate of \"" + session.certificate()->facts.name +
+                       "\" is refused: " + refused.what());
+}
+
+void Sessions::cut_off(const std::set<std::string>& certificates) {
+  for (Session* session : sessions_)
+    if (session->certificate() && certificates.contains(session->certificate()->facts.id))
+      session->connection.close("its certificate was revoked");
 }
 
 void Sessions::refuse(Session& session, const std::string& objection) {
@@ -275,10 +299,12 @@ void Sessions::admit(Session& session, const Hello& hello) {
   const std::string& name = session.dialled ? session.dialled->target.name : hello.name;
   const auto objection = farm_.apply([&](Farm& farm, FarmTime) { return farm.objection_to(name); });
   if (objection) return refuse(session, *objection);
-  const WorkerInfo info{name,          session.connection.peer(), hello.cpu, hello.version,
+  const WorkerInfo info{name,          session.connection.peer(), hello.cpu, hello.software,
                         hello.threads, WorkerKind::remote};
-  const auto send = [&session, this](const ToWorker& message) {
+  const Versions versions = *common_versions(hello.versions, {});
+  const auto send = [&session, this, versions](ToWorker message) {
     if (const auto* refused = std::get_if<Refused>(&message)) return refuse(session, refused->reason);
+    if (auto* welcome = std::get_if<Welcome>(&message)) welcome->versions = versions;
     session.connection.post(message);
   };
   session.worker = farm_.apply([&](Farm& farm, FarmTime now) { return farm.add_worker(info, send, now); });

@@ -10,6 +10,7 @@
 #include "common/net/backoff.h"
 #include "common/net/connection.h"
 #include "common/net/dial.h"
+#include "master/access/access.h"
 #include "master/dialling.h"
 #include "master/live_farm.h"
 
@@ -31,9 +32,10 @@ struct DoorTimes {
 /// All calls are made from the thread that runs `io`, which is the farm's.
 class Sessions {
  public:
-  /// Listens from now on; throws AddressError when it cannot.
+  /// Listens from now on; throws AddressError when it cannot. `access` says which certificates are still good, and
+  /// makes new ones for those who bring a code; without it nobody is paired.
   Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Security security,
-           DoorTimes times = {});
+           DoorTimes times = {}, Access* access = nullptr);
   ~Sessions();
 
   const Address& listening_at() const { return listening_at_; }
@@ -42,6 +44,8 @@ class Sessions {
   void dial(DialTarget target);
   /// A worker that is reached stays until it goes. False: the name is not dialled.
   bool stop_dialling(const std::string& name);
+  /// Ends the connections of workers with these certificates, by their id.
+  void cut_off(const std::set<std::string>& certificates);
   /// Those that are dialled and not reached just now.
   std::vector<Dialling> dialling() const;
   /// Takes workers in. Returns after stop(), once all are gone.
@@ -64,6 +68,8 @@ class Sessions {
   asio::awaitable<std::string> serve(Channel channel, const Dialled* dialled);
   asio::awaitable<void> converse(Session& session);
   void open(Session& session, const ToMaster& first);
+  void pair(Session& session, const ToMaster& first);
+  void check_certificate(const Session& session) const;
   void admit(Session& session, const Hello& hello);
   void refuse(Session& session, const std::string& objection);
   asio::awaitable<void> wait_until_stopped();
@@ -72,6 +78,7 @@ class Sessions {
   LiveFarm& farm_;
   Security security_;
   DoorTimes times_;
+  Access* const access_;
   asio::ip::tcp::acceptor acceptor_;
   Address listening_at_;
   std::set<Session*> sessions_;

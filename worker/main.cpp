@@ -9,6 +9,8 @@
 #include "common/daemon/stop_signals.h"
 #include "common/daemon/system.h"
 #include "common/net/run_until_end.h"
+#include "worker/join.h"
+#include "worker/pairing.h"
 #include "worker/worker.h"
 
 namespace rayfarm {
@@ -17,47 +19,108 @@ namespace {
 constexpr auto examples = R"(
 Examples:
   rayfarm-worker --master 127.0.0.1                     works for the master on this PC
-  rayfarm-worker --master lab1:5411 --threads 4 --insecure
-  rayfarm-worker --listen 0.0.0.0:5411 --insecure       waits for a master with --dial NAME=THIS_PC
+  rayfarm-worker join CODE                              once: this PC becomes a worker of the farm that made the code
+  rayfarm-worker                                        works for the farm that it has joined
+  rayfarm-worker --listen 0.0.0.0:5411                  waits for a master with --dial NAME=THIS_PC
   rayfarm-worker --config /etc/rayfarm/worker.toml      keys are the options: master = "lab1", threads = 4
 
-Until the farm is encrypted, only addresses on this PC are used unless --insecure is given.
+Whatever leaves this PC is encrypted, with the keys that were made when it joined.
 )";
 
 struct Arguments {
-  std::string master, listen, name = host_name();
+  std::string master, listen, name = host_name(), state = default_worker_state(), code;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  bool insecure = false;
+  Openness openness;
 };
 
-void declare(CLI::App& app, Arguments& arguments) {
-  declare_common_options(app, arguments.insecure, examples);
-  auto* way = app.add_option_group("way", "How worker and master meet");
+/// The command `join`.
+CLI::App* declare(CLI::App& app, Arguments& arguments) {
+  declare_common_options(app, arguments.openness, examples);
+  auto* way = app.add_option_group(
+      "way", "How worker and master meet; else it works for the farm that it has joined");
   way->add_option("--master", arguments.master, "Dial the master, and again whenever it is lost")
       ->type_name("HOST[:PORT]");
   way->add_option("--listen", arguments.listen, "Wait to be dialled by the master")
       ->type_name("ADDRESS[:PORT]");
-  way->require_option(1);
+  way->require_option(0, 1);
   app.add_option("--name", arguments.name, "What the master calls this worker")->capture_default_str();
   app.add_option("--threads", arguments.threads, "Threads that render")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
+  app.add_option("--state", arguments.state, "Where the keys are kept that this PC was given when it joined")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  CLI::App* join = app.add_subcommand("join", "Become a worker of the farm that made the code, once");
+  join->add_option("CODE", arguments.code, "From rayfarm token new; - reads it from standard input")
+      ->required();
+  join->fallthrough();
+  return join;
+}
+
+std::string first_line_of(std::istream& in) {
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+constexpr int master_unreachable = 3, not_allowed = 4,
+              version_refused = 6;  // as the command rayfarm has them
+
+int join_farm(const Arguments& arguments) try {
+  const Invitation invitation =
+      parse_invitation(arguments.code == "-" ? first_line_of(std::cin) : arguments.code);
+  if (arguments.master.empty() && !invitation.master)
+    throw std::invalid_argument("the code does not say where the master is: say --master HOST[:PORT]");
+  const Address master =
+      arguments.master.empty() ? *invitation.master : parse_address(arguments.master, default_farm_port);
+  write_pairing(arguments.state, join(invitation.code, master, arguments.name));
+  std::cout << "rayfarm-worker: joined the farm at " << text_of(master) << " as \"" << arguments.name
+            << "\"\n";
+  return 0;
+} catch (const ConnectionLost& error) {
+  std::cerr << "rayfarm-worker: " << error.what() << "\n";
+  return master_unreachable;
+} catch (const JoinRefused& error) {
+  std::cerr << "rayfarm-worker: " << error.what() << "\n";
+  return not_allowed;
+} catch (const VersionRefused& error) {
+  std::cerr << "rayfarm-worker: " << error.what() << "\n";
+  return version_refused;
+}
+
+std::variant<DialMaster, AwaitMaster> way_of(const Arguments& arguments,
+                                             const std::optional<Pairing>& pairing) {
+  if (!arguments.listen.empty()) return AwaitMaster{parse_address(arguments.listen, default_farm_port)};
+  if (!arguments.master.empty()) return DialMaster{parse_address(arguments.master, default_farm_port)};
+  if (pairing) return DialMaster{pairing->master};
+  throw std::invalid_argument("this PC has not joined a farm (" + arguments.state +
+                              "): rayfarm-worker join CODE, or say --master HOST or --listen ADDRESS");
+}
+
+/// The farm that was joined is always talked to with the keys that it gave; an address that is named on this PC may be
+/// another farm's.
+Security security_of(const Arguments& arguments, const std::optional<Pairing>& pairing) {
+  const bool is_named = !arguments.master.empty() || !arguments.listen.empty();
+  const bool is_closed = arguments.openness.closed || !is_named;
+  Security security{arguments.openness.insecure ? Exposure::insecure
+                    : is_closed                 ? Exposure::closed
+                                                : Exposure::loopback_only};
+  if (pairing) security.tls.emplace(pairing->own, pairing->authority, PeerRole::master);
+  return security;
 }
 
 WorkerOptions options_of(const Arguments& arguments) {
+  const std::optional<Pairing> pairing = read_pairing(arguments.state);
   WorkerOptions options;
-  if (!arguments.master.empty())
-    options.way = DialMaster{parse_address(arguments.master, default_farm_port)};
-  else
-    options.way = AwaitMaster{parse_address(arguments.listen, default_farm_port)};
+  options.way = way_of(arguments, pairing);
   options.identity = {arguments.name, cpu_name(), arguments.threads};
-  options.security.exposure = arguments.insecure ? Exposure::insecure : Exposure::loopback_only;
+  options.security = security_of(arguments, pairing);
   check(options.identity);
   return options;
 }
 
 /// Returns after a clean stop; throws what kept the worker from working.
-void serve(WorkerOptions options) {
+int serve(WorkerOptions options) {
   // Never destroyed: that would wait for a name that is still being looked up, and hold up a clean stop.
   static auto& io = *new asio::io_context;
   Worker worker(io, std::move(options));
@@ -69,6 +132,7 @@ void serve(WorkerOptions options) {
   });
   notify_ready();
   run_until_end(io, worker.run());
+  return 0;
 }
 
 }  // namespace
@@ -78,6 +142,8 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("rayfarm-worker"));
   rayfarm::Arguments arguments;
   CLI::App app("Renders tiles for a rayfarm master, with the threads of this PC.", "rayfarm-worker");
-  rayfarm::declare(app, arguments);
-  return rayfarm::run_daemon(app, argc, argv, [&] { rayfarm::serve(rayfarm::options_of(arguments)); });
+  const CLI::App* join = rayfarm::declare(app, arguments);
+  return rayfarm::run_daemon(app, argc, argv, [&] {
+    return join->parsed() ? rayfarm::join_farm(arguments) : rayfarm::serve(rayfarm::options_of(arguments));
+  });
 }

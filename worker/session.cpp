@@ -6,6 +6,7 @@
 #include <asio/redirect_error.hpp>
 
 #include "common/net/until_first_ends.h"
+#include "common/work/engine.h"
 
 namespace rayfarm {
 namespace {
@@ -19,7 +20,7 @@ void log_start(const FrameStart& start) {
 }
 
 Hello hello_of(const WorkerIdentity& identity) {
-  return {protocol_version, RAYFARM_VERSION, identity.name, identity.cpu, identity.threads};
+  return {{}, RAYFARM_VERSION, identity.name, identity.cpu, identity.threads, engine_fingerprint()};
 }
 
 }  // namespace
@@ -69,8 +70,11 @@ void WorkerSession::handle(const ToWorker& message) {
   if (const auto* refused = std::get_if<Refused>(&message))
     throw ConnectionLost("it refused us: " + refused->reason);
   if (const auto* welcome = std::get_if<Welcome>(&message)) {
+    if (!common_versions(welcome->versions, {}))
+      throw CodecError("the master chose a protocol that we do not speak");
     welcomed_ = true;
-    spdlog::info("connected to the master at {}, as \"{}\"", peer(), welcome->name);
+    spdlog::info("connected to the master at {}, as \"{}\", {}", peer(), welcome->name,
+                 connection_.channel().is_encrypted() ? "encrypted" : "plaintext");
   } else if (!welcomed_) {
     throw CodecError("the master gave work before it said welcome");
   } else if (const auto* assignment = std::get_if<Assignment>(&message)) {

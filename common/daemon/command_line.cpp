@@ -62,25 +62,28 @@ int parse(CLI::App& app, int argc, char** argv) try {
 
 }  // namespace
 
-void declare_common_options(CLI::App& app, bool& insecure, const std::string& examples) {
+void declare_common_options(CLI::App& app, Openness& openness, const std::string& examples) {
   app.set_version_flag("--version", app.get_name() + " " RAYFARM_VERSION);
   app.footer(examples);
   app.config_formatter(std::make_shared<TomlConfig>());
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.set_config("--config", "", "Read options from a TOML file; the command line stands above it")
       ->type_name("FILE");
-  app.add_flag("--insecure", insecure, "Talk over the network although nothing is encrypted");
+  CLI::Option* insecure = app.add_flag("--insecure", openness.insecure,
+                                       "Talk over the network without encryption: anybody on it may listen");
+  app.add_flag("--closed", openness.closed,
+               "Encrypt everything and ask everybody who they are, also on this PC")
+      ->excludes(insecure);
 }
 
-int run_daemon(CLI::App& app, int argc, char** argv, const std::function<void()>& serve) {
+int run_daemon(CLI::App& app, int argc, char** argv, const std::function<int()>& serve) {
   if (const int failed = parse(app, argc, argv)) return failed;
   try {
-    serve();
+    return serve();
   } catch (const std::exception& error) {
     std::cerr << app.get_name() << ": " << error.what() << "\n";
     return bad_usage;
   }
-  return 0;
 }
 
 }  // namespace rayfarm

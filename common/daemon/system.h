@@ -1,10 +1,15 @@
 // What a daemon knows of the PC that it runs on, and tells the service manager.
 #pragma once
 #include <string>
+#include <vector>
 
 namespace rayfarm {
 
 std::string host_name();
+/// Under which this PC can be found: its names, localhost, and its numeric addresses but for link-local ones.
+std::vector<std::string> own_hosts();
+/// The address under which other PCs most likely reach this one; loopback's when it has no other.
+std::string outward_address();
 /// As the kernel names it; empty where it does not.
 std::string cpu_name();
 

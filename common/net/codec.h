@@ -46,8 +46,8 @@ Bytes from_base64(std::string_view text);
 
 // Frames: 16 bytes (magic "RYFM", version u16, type u16, payload size u32, CRC-32 of the payload u32;
 // little-endian), then the payload. The type is the message's index in its variant. The version is that of
-// the header, Hello, Welcome, Refused and Goodbye, which stay, so that any two versions of the protocol can
-// tell each other what they are.
+// the header and of how Hello, Join, Welcome, Refused and Goodbye begin, which stay, so that any two versions of the
+// protocol can tell each other what they are.
 constexpr std::uint16_t frame_version = 1;
 constexpr std::size_t frame_header_size = 16;
 

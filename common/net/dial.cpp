@@ -16,8 +16,14 @@ using Places = tcp::resolver::results_type;
 
 constexpr std::uint8_t tls_handshake = 22;  // the first byte of a client that wants TLS: RFC 8446, 5.1
 
+/// Also as a listener on [::] sees it: ::ffff:127.0.0.1.
+bool is_loopback(const asio::ip::address& address) {
+  if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address.is_loopback();
+  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).is_loopback();
+}
+
 bool allows_plaintext(Exposure exposure, const asio::ip::address& address) {
-  return exposure == Exposure::insecure || (exposure == Exposure::loopback_only && address.is_loopback());
+  return exposure == Exposure::insecure || (exposure == Exposure::loopback_only && is_loopback(address));
 }
 
 bool allow_plaintext(Exposure exposure, const Places& places) {

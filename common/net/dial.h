@@ -9,11 +9,9 @@
 
 #include "common/net/address.h"
 #include "common/net/channel.h"
+#include "common/net/exposure.h"
 
 namespace rayfarm {
-
-/// Where plaintext is spoken: nowhere, between programs of one PC, everywhere.
-enum class Exposure : std::uint8_t { closed, loopback_only, insecure };
 
 struct Security {
   Exposure exposure = Exposure::loopback_only;

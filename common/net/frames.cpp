@@ -11,6 +11,7 @@ namespace rayfarm {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> magic{'R', 'Y', 'F', 'M'};
+constexpr std::array<std::uint8_t, 2> tls_handshake{0x16, 0x03};  // RFC 8446, 5.1
 
 // The largest payload of each message, in bytes.
 template <class Message>
@@ -80,12 +81,15 @@ void read_payload(ByteView payload, Message& message) {
   expect_nothing(source.rest());
 }
 
-/// A later version may have more to say; it is refused, but for the right reason.
-void read_payload(ByteView payload, Hello& hello) {
+/// Of a later version: it may have more to say at the end.
+template <class Message>
+void read_beginning(ByteView payload, Message& message) {
   ByteSource source(payload);
-  hello = decode_from<Hello>(source);
-  if (hello.protocol == protocol_version) expect_nothing(source.rest());
+  message = decode_from<Message>(source);
+  if (message.versions.newest <= protocol_version) expect_nothing(source.rest());
 }
+void read_payload(ByteView payload, Hello& hello) { read_beginning(payload, hello); }
+void read_payload(ByteView payload, Join& join) { read_beginning(payload, join); }
 
 template <class Data>  // SceneData, AssetData
 void read_data(ByteView payload, Data& message) {
@@ -143,6 +147,8 @@ Bytes whole(Frame frame) {
 
 template <class Variant>
 FrameHeader decode_header(ByteView bytes) {
+  if (std::ranges::equal(bytes.first(tls_handshake.size()), tls_handshake))
+    throw CodecError("the peer encrypts what it says, and this side has no certificate");
   if (!std::ranges::equal(bytes.first(magic.size()), magic))
     throw CodecError("the peer does not speak rayfarm's protocol");
   const std::uint16_t version = read_u16(bytes.subspan(4));

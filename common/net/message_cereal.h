@@ -26,18 +26,61 @@ void hash_texts(Archive& archive, std::vector<std::string>& values, std::size_t 
   for (std::string& value : values) hash_text(archive, value);
 }
 
-/// Protocol first: whatever else changes, the other side can read it and say what it expects.
+constexpr std::size_t max_certificate = 4096;  // bytes of a certificate or of a request for one
+
+template <class Archive>
+void bytes(Archive& archive, std::vector<std::uint8_t>& value, std::size_t limit) {
+  auto size = static_cast<std::uint32_t>(value.size());
+  archive(size);
+  if (size > limit) throw CodecError(std::to_string(size) + " bytes are more than " + std::to_string(limit));
+  if constexpr (is_loading<Archive>) value.resize(size);
+  archive(cereal::binary_data(value.data(), size));
+}
+
+inline void check_order(const Versions& v) {
+  if (v.newest < v.oldest) throw CodecError("what is the newest of its protocols is older than the oldest");
+}
+template <class Archive>
+void serialize(Archive& archive, Versions& v) {
+  archive(v.newest, v.oldest, v.capabilities);
+  check_order(v);
+}
+
+// Hello, Welcome, Join and Refused begin alike in all versions of the protocol, and each version may have more to say at
+// the end: whoever comes can be read far enough to be told why it is refused.
+
+/// `newest` stands first, the others at the end: protocols before 4 had no more.
 template <class Archive>
 void serialize(Archive& archive, Hello& m) {
-  archive(m.protocol);
-  text(archive, m.version, max_name);
+  archive(m.versions.newest);
+  text(archive, m.software, max_name);
   text(archive, m.name, max_name);
   text(archive, m.cpu, max_name);
   archive(m.threads);
+  if (m.versions.newest < 4) {
+    m.versions.oldest = m.versions.newest;
+    return;
+  }
+  archive(m.versions.oldest, m.versions.capabilities);
+  check_order(m.versions);
+  hash_text(archive, m.engine);
 }
 template <class Archive>
 void serialize(Archive& archive, Welcome& m) {
   text(archive, m.name, max_name + 16);  // made unique by a number
+  archive(m.versions);
+}
+template <class Archive>
+void serialize(Archive& archive, Join& m) {
+  archive(m.versions);
+  text(archive, m.software, max_name);
+  text(archive, m.secret, max_name);
+  text(archive, m.name, max_name);
+  bytes(archive, m.request, max_certificate);
+}
+template <class Archive>
+void serialize(Archive& archive, Paired& m) {
+  bytes(archive, m.certificate, max_certificate);
 }
 template <class Archive>
 void serialize(Archive& archive, Refused& m) {

@@ -2,7 +2,7 @@
 //
 // The conversation; either side may have dialled.
 //   worker -> master  Hello         who I am, what I speak; the first frame, within 5 s
-//   master -> worker  Welcome       you are in (a name already taken is made unique)          or
+//   master -> worker  Welcome       you are in (a name already taken is made unique), and we speak this    or
 //   master -> worker  Refused       why, and what to do; the connection ends
 //   master -> worker  AssetData     once per mesh, Bezier surface or image and worker, before the first scene with it
 //   master -> worker  SceneData     once per scene and worker, before the first frame that shows it
@@ -15,6 +15,10 @@
 //   master -> worker  AssetEnd      forget these assets: no job that goes on has them
 //   both              Heartbeat     each 0.5 s while nothing else is said; 2 s of silence end the connection
 //   both              Goodbye       a clean end, with the reason
+// A PC becomes a worker over an encrypted connection on which it has shown no certificate:
+//   PC -> master      Join          a pairing code, and a request for a certificate; instead of Hello
+//   master -> PC      Paired        the certificate                                          or
+//   master -> PC      Refused       another version is needed. A bad code is answered by closing the connection
 // A job has one frame or, when it is an animation, several; what a worker knows, it knows of a frame.
 // A lease is good for exactly one Result. The master drops what comes for a lease it has revoked (after
 // comparing the pixels with those that another worker delivered).
@@ -22,6 +26,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,8 +36,11 @@
 
 namespace rayfarm {
 
-/// Raised whenever the bytes of a message change their meaning; a peer of another number is refused.
-constexpr std::uint16_t protocol_version = 3;
+/// The newest that is spoken. Raised whenever the bytes of a message change their meaning; frames of each one that was
+/// released stay in tests/common/net/golden.
+constexpr std::uint16_t protocol_version = 4;
+/// The oldest that is still spoken: those before were never released.
+constexpr std::uint16_t oldest_protocol_version = 4;
 constexpr std::uint16_t default_farm_port = 5411;
 constexpr auto heartbeat_interval = std::chrono::milliseconds(500);
 constexpr auto peer_patience = std::chrono::seconds(2);       // four missed heartbeats
@@ -48,17 +56,41 @@ struct FrameId {
   auto operator<=>(const FrameId&) const = default;
 };
 
+/// What a side speaks. Both use the newest protocol, and the capabilities, that they have in common.
+struct Versions {
+  std::uint16_t newest = protocol_version, oldest = oldest_protocol_version;
+  std::uint64_t capabilities =
+      0;  // a bit for each thing that one may know and another not; none is given yet
+  bool operator==(const Versions&) const = default;
+};
+/// None when there is no protocol that both speak.
+std::optional<Versions> common_versions(const Versions& a, const Versions& b);
+
 struct Hello {
-  std::uint16_t protocol = protocol_version;
-  std::string version;  // of the software, for people
+  Versions versions{};
+  std::string software;  // its version, for people
   std::string name;
   std::string cpu;
   std::uint32_t threads = 1;
+  std::string engine;  // engine_fingerprint(): SHA-256, hexadecimal
   bool operator==(const Hello&) const = default;
 };
 struct Welcome {
-  std::string name;  // as the master will call this worker
+  std::string name;     // as the master will call this worker
+  Versions versions{};  // that are spoken from now on: newest and oldest are one
   bool operator==(const Welcome&) const = default;
+};
+struct Join {
+  Versions versions{};
+  std::string software;
+  std::string secret;                 // of the pairing code
+  std::string name;                   // that the farm shall know this worker by
+  std::vector<std::uint8_t> request;  // certificate_request()
+  bool operator==(const Join&) const = default;
+};
+struct Paired {
+  std::vector<std::uint8_t> certificate;  // PEM
+  bool operator==(const Paired&) const = default;
 };
 struct Refused {
   std::string reason;
@@ -125,8 +157,9 @@ struct Goodbye {
   bool operator==(const Goodbye&) const = default;
 };
 
+// The place in the list is a message's number on the wire: new ones come at the end.
 using ToWorker = std::variant<Welcome, Refused, SceneData, FrameStart, Assignment, Revoke, FrameEnd,
-                              Heartbeat, Goodbye, AssetData, AssetEnd>;
-using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye>;
+                              Heartbeat, Goodbye, AssetData, AssetEnd, Paired>;
+using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye, Join>;
 
 }  // namespace rayfarm

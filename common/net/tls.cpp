@@ -54,11 +54,10 @@ std::shared_ptr<SSL_CTX> new_context() {
   return context;
 }
 
-void show(SSL_CTX* context, const Identity& own, X509* authority) {
+void use(SSL_CTX* context, const Identity& own) {
   const KeyPtr key(PEM_read_bio_PrivateKey(bio_of(own.key).get(), nullptr, nullptr, nullptr));
   expect(key && SSL_CTX_use_certificate(context, certificate_in(own.certificate).get()) == 1 &&
-             SSL_CTX_use_PrivateKey(context, key.get()) == 1 &&
-             SSL_CTX_add1_chain_cert(context, authority) == 1,  // for those who know its fingerprint only
+             SSL_CTX_use_PrivateKey(context, key.get()) == 1,
          "the key and the certificate cannot be used");
 }
 
@@ -86,12 +85,31 @@ std::string fault_of(X509* certificate, X509_STORE* authorities) {
 TlsContext::TlsContext(const Identity& own, const std::string& authority, PeerRole peer)
     : context_(new_context()), peer_(peer) {
   const CertificatePtr trusted = certificate_in(authority);
-  show(context_.get(), own, trusted.get());
-  expect(X509_STORE_add_cert(SSL_CTX_get_cert_store(context_.get()), trusted.get()) == 1,
+  use(context_.get(), own);
+  expect(X509_STORE_add_cert(SSL_CTX_get_cert_store(context_.get()), trusted.get()) == 1 &&
+             SSL_CTX_add1_chain_cert(context_.get(), trusted.get()) ==
+                 1,  // for those who know its fingerprint only
          "the authority's certificate cannot be used");
 }
 
 TlsContext TlsContext::of_stranger() { return TlsContext(new_context()); }
+
+std::shared_ptr<ssl_ctx_st> web_context(const Identity& own) {
+  const std::shared_ptr<SSL_CTX> context = new_context();
+  SSL_CTX_set_verify(context.get(), SSL_VERIFY_NONE, nullptr);
+  const std::vector<std::string> chain = pem_blocks(own.certificate);
+  if (chain.empty()) throw CertificateError("there is no certificate");
+  use(context.get(), {own.key, chain[0]});
+  for (std::size_t i = 1; i < chain.size(); ++i)
+    expect(SSL_CTX_add1_chain_cert(context.get(), certificate_in(chain[i]).get()) == 1,
+           "the certificates cannot be used");
+  return context;
+}
+
+ssl_ctx_st* share(const std::shared_ptr<ssl_ctx_st>& context) {
+  SSL_CTX_up_ref(context.get());
+  return context.get();
+}
 
 std::optional<PeerCertificate> peer_certificate(ssl_st& connection, const TlsContext& context) {
   const CertificatePtr shown(SSL_get1_peer_certificate(&connection));

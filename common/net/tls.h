@@ -33,6 +33,11 @@ class TlsContext {
   std::optional<PeerRole> peer_;  // none: of a stranger
 };
 
+/// Of a web server, which shows its certificate (and those after it in the text) and asks for none.
+std::shared_ptr<ssl_ctx_st> web_context(const Identity& own);
+/// The other owner of the context, which must be freed.
+ssl_ctx_st* share(const std::shared_ptr<ssl_ctx_st>& context);
+
 /// What the other side of an encrypted connection has shown, and proved that it has the key of.
 struct PeerCertificate {
   CertificateFacts facts;

@@ -20,6 +20,7 @@ void add_compare_command(CLI::App& app, Command& chosen);
 void add_submit_command(CLI::App& app, Command& chosen);
 void add_job_commands(CLI::App& app, Command& chosen);  // jobs, job, watch, pause, resume, cancel, priority
 void add_fetch_command(CLI::App& app, Command& chosen);
-void add_worker_commands(CLI::App& app, Command& chosen);  // workers, drain, undrain
+void add_worker_commands(CLI::App& app, Command& chosen);  // workers, drain, undrain, ban, unban
+void add_token_command(CLI::App& app, Command& chosen);    // token new, list, revoke
 
 }  // namespace rayfarm

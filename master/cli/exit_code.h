@@ -12,7 +12,7 @@ enum class ExitCode : int {
   master_unreachable = 3,
   not_allowed = 4,
   timed_out = 5,
-  // 6 is not used
+  version_refused = 6,
   partly_done = 7,  // a picture was written, some of its pixels are missing
   interrupted = 130,
 };

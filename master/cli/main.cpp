@@ -77,15 +77,17 @@ int run_command_line(int argc, char** argv) {
       "  rayfarm render scenes/circus.lua -o circus.png\n"
       "  rayfarm submit scenes/circus.lua -o circus.exr --size 1920x1080 --spp 256 --watch\n"
       "  rayfarm jobs\n"
-      "Environment: RAYFARM_MASTER, the master's address (default http://127.0.0.1:5412).\n"
+      "Environment: RAYFARM_MASTER, the master's address (default http://127.0.0.1:5412);\n"
+      "RAYFARM_TOKEN_FILE, a file with your token, which only you may read.\n"
       "Exit codes: 0 done, 1 failed, 2 usage, scene or output, 3 master unreachable, 4 not allowed,\n"
-      "5 timed out, 7 partly done, 130 interrupted.");
+      "5 timed out, 6 version refused, 7 partly done, 130 interrupted.");
   Command chosen;
   add_render_command(app, chosen);
   add_submit_command(app, chosen);
   add_job_commands(app, chosen);
   add_fetch_command(app, chosen);
   add_worker_commands(app, chosen);
+  add_token_command(app, chosen);
   add_stats_command(app, chosen);
   add_map_command(app, chosen);
   add_cloud_command(app, chosen);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "common/net/private_file.h"
 #include "master/cli/exit_code.h"
 #include "master/cli/interrupt.h"
 #include "master/cli/text.h"
@@ -26,7 +27,26 @@ struct MasterBusy : CommandError {
   explicit MasterBusy(const std::string& message) : CommandError(ExitCode::failed, message) {}
 };
 
+/// What RAYFARM_TOKEN_FILE holds; empty: there is none.
+const std::string& token() {
+  static const std::string token = [] {
+    const char* file = std::getenv("RAYFARM_TOKEN_FILE");
+    if (file == nullptr || *file == '\0') return std::string();
+    std::optional<std::string> text;
+    try {
+      text = read_private_file(file);
+    } catch (const std::runtime_error& error) {
+      throw CommandError(ExitCode::usage, std::string(error.what()) + " (RAYFARM_TOKEN_FILE)");
+    }
+    if (!text)
+      throw CommandError(ExitCode::usage, std::string("there is no file ") + file + " (RAYFARM_TOKEN_FILE)");
+    return text->substr(0, text->find_first_of("\r\n"));
+  }();
+  return token;
+}
+
 ExitCode exit_code_of(unsigned status) {
+  if (status == 426) return ExitCode::version_refused;
   if (status == 403 || status == 401) return ExitCode::not_allowed;
   if (status == 400 || status == 413 || status == 415 || status == 422) return ExitCode::usage;
   return ExitCode::failed;
@@ -41,6 +61,7 @@ std::string error_in(const HttpReply& reply) {
 
 HttpReply asked(HttpRequest request) {
   request.url = master_url();
+  request.token = token();
   request.cancelled = interrupted;
   try {
     HttpReply reply = send(request);
@@ -51,6 +72,8 @@ HttpReply asked(HttpRequest request) {
     throw CommandError(
         ExitCode::master_unreachable,
         std::string(error.what()) + "; start one with rayfarm-master, or say where it is in RAYFARM_MASTER");
+  } catch (const MasterUntrusted& error) {
+    throw CommandError(ExitCode::not_allowed, error.what());
   } catch (const RequestTimedOut& error) {
     throw CommandError(ExitCode::timed_out, error.what());
   } catch (const RequestCancelled& error) {

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint64_t longest_wait = 30;  // seconds; proxies and browsers lose patience at 60
 
-std::array<std::span<const Route>, 8> all_tables() {
-  return {job_routes(),    picture_routes(), map_routes(),    diagnostics_routes(),
-          script_routes(), asset_routes(),   worker_routes(), page_routes()};
+std::array<std::span<const Route>, 9> all_tables() {
+  return {job_routes(),   picture_routes(), map_routes(),   diagnostics_routes(), script_routes(),
+          asset_routes(), worker_routes(),  token_routes(), page_routes()};
 }
 
 /// What stands for the {} of the pattern, if the path has its form.
@@ -60,6 +60,14 @@ const Route* route_of(const ApiRequest& request) {
   }
 }
 
+/// Who speaks another version of the API is told so.
+void expect_version(std::string_view target) {
+  constexpr std::string_view versions = "/api/v", ours = "/api/v1/";
+  if (target.starts_with(versions) && !target.starts_with(ours))
+    throw ApiError(426, "this master (rayfarm " RAYFARM_VERSION
+                        ") speaks version 1 of the API only: install the same rayfarm on both PCs");
+}
+
 ApiResponse routed(const ApiRequest& request, const Doors& doors) {
   RequestTarget target = parse_target(request.target);
   Match match = match_of(request.method, target);
@@ -69,6 +77,7 @@ ApiResponse routed(const ApiRequest& request, const Doors& doors) {
     expect_known(target.query, parse_target(match.route->path).query);
     return match.route->handle({request, doors, std::move(match.arguments), std::move(target.query)});
   }
+  expect_version(request.target);
   if (match.path_is_known) throw ApiError(405, request.method + " is not possible here");
   if (request.method == "GET" && !request.target.starts_with("/api/"))
     return doors.app.answer(request.target.substr(0, request.target.find('?')));
@@ -76,6 +85,15 @@ ApiResponse routed(const ApiRequest& request, const Doors& doors) {
 }
 
 }  // namespace
+
+std::optional<Role> role_needed(const ApiRequest& request) {
+  const Route* route = route_of(request);
+  if (!route && !request.target.starts_with("/api/"))
+    return std::nullopt;  // the app's files hold nothing yet
+  if (route && route->needs == Needs::nothing) return std::nullopt;
+  if (route && route->needs == Needs::admin) return Role::admin;
+  return request.method == "GET" ? Role::viewer : Role::artist;
+}
 
 Work work_of(const ApiRequest& request) {
   const Route* route = route_of(request);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "master/access/credentials.h"
 #include "master/http/route.h"
 
 namespace rayfarm {
@@ -19,6 +20,9 @@ std::vector<ApiRoute> api_routes();
 
 /// The largest body, in bytes, that this request may bring.
 std::uint64_t body_limit(const ApiRequest& request);
+
+/// What it takes to be answered; none: nothing.
+std::optional<Role> role_needed(const ApiRequest& request);
 
 /// On whose threads the request is answered.
 Work work_of(const ApiRequest& request);

@@ -1,6 +1,7 @@
 // What the handlers of HTTP requests may ask, from any thread.
 #pragma once
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@
 
 namespace rayfarm {
 
+class Access;
 class Diagnostics;
 
-/// What of the master is not the farm's. All are called on the farm's thread.
+/// What of the master is not the farm's. All functions but tell() are called on the farm's thread.
 struct MasterDoor {
   /// NAME=HOST[:PORT], from now on. Throws AddressError and NameInUse.
   std::function<void(const std::string& target)> dial;
@@ -25,6 +27,11 @@ struct MasterDoor {
   std::function<std::vector<LogLine>(std::uint64_t after)> log;
   /// False: the name is not dialled.
   std::function<bool(const std::string& name)> stop_dialling{};
+  /// Ends the connections of workers with these certificates.
+  std::function<void(const std::set<std::string>& certificates)> cut_off;
+  /// A line for the log, from any thread.
+  std::function<void(const std::string& line)> tell;
+  std::string farm_address{};  // HOST:PORT where workers of other PCs come
 };
 
 /// All of it outlives the server.
@@ -36,6 +43,7 @@ struct Doors {
   const AppFiles& app;
   const SceneLibrary& scenes;
   AssetStore& assets;
+  Access* access = nullptr;  // none: the master keeps no keys, and gives nobody a code or token
 };
 
 }  // namespace rayfarm

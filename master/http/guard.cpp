@@ -23,13 +23,19 @@ bool is_address(const std::string& name) {
   return ::inet_pton(AF_INET, name.c_str(), bytes) == 1 || ::inet_pton(AF_INET6, name.c_str(), bytes) == 1;
 }
 
+bool is_loopback_name(const std::string& name) {
+  return name == "localhost" || name == "127.0.0.1" || name == "::1";
+}
+
 /// A name can be made to point anywhere, an address cannot: with more than loopback listened to, any address
 /// will do.
 bool is_ours(const std::string& host, const ListenAddress& listening) {
   const std::string name = name_in(host);
-  if (name == "localhost" || name == "127.0.0.1" || name == "::1" || name == listening.address) return true;
+  if (is_loopback_name(name) || name == listening.address) return true;
+  if (listening.loopback || name.empty()) return false;
   const std::string pc = lower(listening.pc_name);
-  return !listening.loopback && !pc.empty() && (is_address(name) || name == pc || name == pc + ".local");
+  return is_address(name) || (!pc.empty() && (name == pc || name == pc + ".local")) ||
+         std::ranges::find(listening.names, name) != listening.names.end();
 }
 
 bool is_json(const std::string& content_type) {
@@ -40,14 +46,21 @@ bool is_json(const std::string& content_type) {
 
 }  // namespace
 
+bool is_from_this_pc(const ApiRequest& request) {
+  const bool is_near = request.from == "127.0.0.1" || request.from == "::1";
+  return is_near && is_loopback_name(name_in(request.host)) && !request.is_forwarded;
+}
+
 std::optional<ApiResponse> refusal(const ApiRequest& request, const ListenAddress& listening) {
   if (!is_ours(request.host, listening))
     return error_response(403, "this master does not answer to the name \"" + request.host + "\"");
-  if (!request.origin.empty() && lower(request.origin) != "http://" + lower(request.host))
+  const std::string scheme = request.is_encrypted ? "https://" : "http://";
+  if (!request.origin.empty() && lower(request.origin) != scheme + lower(request.host))
     return error_response(403, "pages from " + request.origin + " may not use this master");
   const bool from_here =
       request.fetch_site.empty() || request.fetch_site == "same-origin" || request.fetch_site == "none";
-  if (!from_here && request.target != "/")  // the bare page may be linked to: it holds nothing yet
+  const bool may_be_linked_to = request.target == "/" || request.target.starts_with("/login?");
+  if (!from_here && !may_be_linked_to)  // the bare page holds nothing yet
     return error_response(403, "pages from elsewhere may not use this master");
   if (request.method == "POST" && !is_json(request.content_type))
     return error_response(415, "POST wants Content-Type: application/json");

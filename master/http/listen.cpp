@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 
 namespace rayfarm {
@@ -34,11 +35,18 @@ std::string pc_name() {
 
 }  // namespace
 
+asio::ip::address peer_address(const tcp::socket& socket) {
+  const asio::ip::address address = socket.remote_endpoint().address();
+  if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address;
+  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+}
+
 tcp::acceptor acceptor_at(asio::io_context& io, const HttpSettings& settings) {
   const tcp::endpoint endpoint = endpoint_of(settings.listen);
-  if (!endpoint.address().is_loopback() && !settings.insecure)
-    throw HttpError("the HTTP API has no encryption yet, so it listens on loopback only; " + settings.listen +
-                    " needs --insecure");
+  if (!settings.identity && !allows_plaintext(settings, endpoint.address()))
+    throw HttpError(
+        "there is no certificate to encrypt the HTTP API with at " + settings.listen +
+        ": give the master --state FOLDER (or --insecure, if everybody on the network may do everything)");
   try {
     return tcp::acceptor(io, endpoint);
   } catch (const boost::system::system_error& error) {
@@ -47,16 +55,38 @@ tcp::acceptor acceptor_at(asio::io_context& io, const HttpSettings& settings) {
   }
 }
 
-ListenAddress address_of(const tcp::acceptor& acceptor) {
-  const asio::ip::address address = acceptor.local_endpoint().address();
-  return {address.to_string(), address.is_loopback(), pc_name()};
+bool allows_plaintext(const HttpSettings& settings, const asio::ip::address& with) {
+  return settings.exposure == Exposure::insecure ||
+         (settings.exposure == Exposure::loopback_only && with.is_loopback());
 }
 
-std::string url_of(const tcp::acceptor& acceptor) {
-  const tcp::endpoint endpoint = acceptor.local_endpoint();
-  const std::string address = endpoint.address().to_string();
-  return "http://" + (endpoint.address().is_v6() ? "[" + address + "]" : address) + ":" +
-         std::to_string(endpoint.port());
+ListenAddress address_of(const tcp::acceptor& acceptor, const HttpSettings& settings) {
+  const asio::ip::address address = acceptor.local_endpoint().address();
+  ListenAddress listening{address.to_string(), address.is_loopback(), pc_name(), {}};
+  if (settings.identity)
+    for (std::string name : facts_of(settings.identity->certificate).hosts) {
+      std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+      listening.names.push_back(std::move(name));
+    }
+  return listening;
+}
+
+static std::string url_at(const asio::ip::address& host, const tcp::acceptor& acceptor,
+                          const HttpSettings& settings) {
+  const std::string address = host.to_string();
+  const bool is_plain = allows_plaintext(settings, acceptor.local_endpoint().address());
+  return (is_plain ? "http://" : "https://") + (host.is_v6() ? "[" + address + "]" : address) + ":" +
+         std::to_string(acceptor.local_endpoint().port());
+}
+
+std::string url_of(const tcp::acceptor& acceptor, const HttpSettings& settings) {
+  return url_at(acceptor.local_endpoint().address(), acceptor, settings);
+}
+
+std::string outward_url_of(const tcp::acceptor& acceptor, const HttpSettings& settings) {
+  const asio::ip::address listening = acceptor.local_endpoint().address();
+  return url_at(listening.is_unspecified() ? asio::ip::make_address(settings.outward_host) : listening,
+                acceptor, settings);
 }
 
 }  // namespace rayfarm

@@ -46,6 +46,12 @@ struct ApiRequest {
   std::string host, origin, fetch_site, content_type;  // header fields; empty: not there
   std::string body;
   std::function<bool()> has_left{};  // whether the asker waits no longer; none: it does
+
+  std::string authorization{}, cookie{};  // header fields
+  std::string from{};                     // numeric address of the other end
+  std::string our_url{};                  // under which other PCs find the master
+  bool is_encrypted = false;
+  bool is_forwarded = false;  // somebody else asks through a proxy, which says so
 };
 
 /// How long a browser may keep an answer.
@@ -56,6 +62,7 @@ struct ApiResponse {
   std::string content_type = "application/json";
   Body body;
   Caching caching = Caching::never;
+  std::string cookie{}, location{};  // header fields; empty: not there
 };
 
 ApiResponse error_response(unsigned status, const std::string& message);

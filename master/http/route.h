@@ -28,6 +28,13 @@ enum class Work : std::uint8_t {
 /// It is not done for who has left.
 constexpr bool is_evaluation(Work work) { return work == Work::look || work == Work::script; }
 
+/// Who may ask.
+enum class Needs : std::uint8_t {
+  usual,    // to look: a viewer; to do something: an artist
+  nothing,  // not even to be somebody
+  admin,
+};
+
 /// A request at its handler.
 struct Call {
   const ApiRequest& request;
@@ -45,6 +52,7 @@ struct Route {
   ApiResponse (*handle)(const Call&);
   Work work = Work::command;
   std::uint64_t body_limit = command_limit;
+  Needs needs = Needs::usual;
 };
 
 std::span<const Route> job_routes();
@@ -54,6 +62,7 @@ std::span<const Route> asset_routes();
 std::span<const Route> map_routes();
 std::span<const Route> diagnostics_routes();
 std::span<const Route> worker_routes();
+std::span<const Route> token_routes();
 std::span<const Route> page_routes();
 
 // What handlers share.

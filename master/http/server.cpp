@@ -9,6 +9,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/redirect_error.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -18,8 +19,11 @@
 #include <list>
 #include <thread>
 
+#include "common/net/tls.h"
 #include "master/http/api.h"
 #include "master/http/guard.h"
+#include "master/http/http_stream.h"
+#include "master/http/http_words.h"
 #include "master/http/listen.h"
 #include "master/http/live/session.h"
 #include "master/http/submission.h"
@@ -40,43 +44,6 @@ constexpr auto write_patience = std::chrono::seconds(60);             // while t
 constexpr auto farewell_patience = std::chrono::seconds(2);
 constexpr auto news_glance = std::chrono::milliseconds(100);  // the changes of many tiles make one answer
 
-using RequestParser = http::request_parser<http::string_body>;
-using Response = http::response<http::span_body<const char>>;
-
-ApiRequest api_request(const RequestParser::value_type& message) {
-  const auto field = [&](std::string_view name) { return std::string(message[name]); };
-  return {std::string(message.method_string()),
-          std::string(message.target()),
-          field("Host"),
-          field("Origin"),
-          field("Sec-Fetch-Site"),
-          field("Content-Type"),
-          ""};
-}
-
-std::string_view words_of(Caching caching) {
-  if (caching == Caching::for_ever) return "public, max-age=31536000, immutable";
-  return caching == Caching::ask_again ? "no-cache" : "no-store";
-}
-
-/// The head of an answer, and a view of its body.
-Response http_response(const ApiResponse& answer, const RequestParser::value_type& request, bool keep_alive) {
-  Response response(static_cast<http::status>(answer.status), request.version());
-  response.body() = {answer.body.data(), answer.body.size()};
-  response.set(http::field::server, "rayfarm");
-  response.set(http::field::content_type, answer.content_type);
-  response.set(http::field::cache_control, words_of(answer.caching));
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("Cross-Origin-Resource-Policy", "same-origin");
-  response.set("Content-Security-Policy",
-               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-               "connect-src 'self'; "
-               "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
-  response.keep_alive(keep_alive);
-  response.prepare_payload();
-  return response;
-}
-
 bool is_live(const RequestParser::value_type& request) {
   return beast::websocket::is_upgrade(request) && request.target() == live_path;
 }
@@ -95,12 +62,11 @@ class MemoryShare {
 };
 
 /// Connections that wait for a request, the one that has waited longest first.
-using IdleConnections = std::list<beast::tcp_stream*>;
+using IdleConnections = std::list<HttpStream*>;
 
 class IdleTime {
  public:
-  IdleTime(IdleConnections& all, beast::tcp_stream& stream)
-      : all_(all), place_(all.insert(all.end(), &stream)) {}
+  IdleTime(IdleConnections& all, HttpStream& stream) : all_(all), place_(all.insert(all.end(), &stream)) {}
   ~IdleTime() { all_.erase(place_); }
   IdleTime(const IdleTime&) = delete;
   IdleTime& operator=(const IdleTime&) = delete;
@@ -109,23 +75,6 @@ class IdleTime {
   IdleConnections& all_;
   const IdleConnections::iterator place_;
 };
-
-/// How much the peer may still send: what it announced, or the limit when it did not.
-std::uint64_t expected_body(const RequestParser& parser, std::uint64_t limit) {
-  return parser.chunked() ? limit : parser.content_length_remaining().value_or(0);
-}
-
-/// What a request that cannot be read deserves; nothing when the peer is gone or silent.
-std::optional<ApiResponse> complaint(const boost::system::error_code& error, std::uint64_t body_limit) {
-  if (error == http::error::header_limit) return error_response(431, "the header is over 8 KB");
-  if (error == http::error::body_limit)
-    return error_response(
-        413, "the body is too large: at most " + std::to_string(body_limit) + " bytes may come here");
-  if (error == http::error::end_of_stream || error == http::error::partial_message) return std::nullopt;
-  if (error.category() == make_error_code(http::error::bad_method).category())
-    return error_response(400, "this is no HTTP request: " + error.message());
-  return std::nullopt;
-}
 
 /// True when the peer has closed the connection, or its half of it.
 bool has_left(int socket) {
@@ -144,14 +93,17 @@ struct HttpServer::Parts {
         doors(doors),
         live(io, live_threads, doors, settings.viewer_patience),
         acceptor(acceptor_at(io, settings)) {
-    listening = address_of(acceptor);
+    listening = address_of(acceptor, settings);
+    our_url = outward_url_of(acceptor, settings);
+    if (settings.identity) tls.emplace(share(web_context(*settings.identity)));
   }
 
   asio::awaitable<void> accept_all();
-  asio::awaitable<void> session(beast::tcp_stream stream);
-  asio::awaitable<void> see_off(beast::tcp_stream& stream);
-  asio::awaitable<Then> converse(beast::tcp_stream& stream, beast::flat_buffer& buffer);
-  asio::awaitable<Then> reply(beast::tcp_stream& stream, ApiResponse answer,
+  asio::awaitable<void> session(HttpStream stream);
+  asio::awaitable<bool> greet(HttpStream& stream, beast::flat_buffer& buffer);
+  asio::awaitable<void> see_off(HttpStream& stream);
+  asio::awaitable<Then> converse(HttpStream& stream, beast::flat_buffer& buffer);
+  asio::awaitable<Then> reply(HttpStream& stream, ApiResponse answer,
                               const RequestParser::value_type& request, bool keep_alive);
   asio::awaitable<ApiResponse> respond(const ApiRequest& request);
   asio::awaitable<void> await_news(NewsWait wait);
@@ -159,9 +111,14 @@ struct HttpServer::Parts {
   asio::awaitable<bool> has_come(NewsWait wait);
   asio::thread_pool& threads_for(Work work) { return threads[static_cast<std::size_t>(work)]; }
 
+  /// Whether who showed this may still look.
+  bool may_look(const std::string& shown, const std::string& from) const;
+
   const HttpSettings settings;
   const Doors doors;
+  std::optional<asio::ssl::context> tls;
   ListenAddress listening;
+  std::string our_url;
   int connections = 0;
   IdleConnections idle;
   std::uint64_t body_bytes = 0;    // that peers may send just now
@@ -187,18 +144,19 @@ asio::awaitable<void> HttpServer::Parts::accept_all() {
     }
     if (connections >= settings.connections) {
       if (idle.empty()) continue;  // closes it
-      idle.front()->close();
+      idle.front()->next_layer().close();
     }
     ++connections;
-    asio::co_spawn(io, session(beast::tcp_stream(std::move(socket))), asio::detached);
+    asio::co_spawn(io, session(HttpStream(beast::tcp_stream(std::move(socket)))), asio::detached);
   }
 }
 
 /// Ends when the peer does, on the first mistake, or when patience does.
-asio::awaitable<void> HttpServer::Parts::session(beast::tcp_stream stream) {
+asio::awaitable<void> HttpServer::Parts::session(HttpStream stream) {
   Then then = Then::next_request;
   try {
     beast::flat_buffer buffer(header_limit + 1024);
+    if (!co_await greet(stream, buffer)) then = Then::nothing;
     while (then == Then::next_request) then = co_await converse(stream, buffer);
   } catch (const std::exception&) {  // of the peer's making; nobody is left to be told
     then = Then::farewell;
@@ -207,19 +165,45 @@ asio::awaitable<void> HttpServer::Parts::session(beast::tcp_stream stream) {
   --connections;
 }
 
+/// TLS or plaintext, as the peer begins; false: the latter is not spoken with it, and nothing is said.
+asio::awaitable<bool> HttpServer::Parts::greet(HttpStream& stream, beast::flat_buffer& buffer) {
+  const IdleTime idling(idle, stream);
+  stream.next_layer().expires_after(settings.header_patience);
+  const bool wants_tls = co_await beast::async_detect_ssl(stream.next_layer(), buffer, asio::use_awaitable);
+  if (!wants_tls) co_return allows_plaintext(settings, peer_address(stream.next_layer().socket()));
+  if (!tls) co_return false;
+  HttpStream::Tls& encrypted = stream.encrypt(*tls);
+  const asio::const_buffer begun = buffer.cdata();
+  buffer.consume(
+      co_await encrypted.async_handshake(asio::ssl::stream_base::server, begun, asio::use_awaitable));
+  co_return true;
+}
+
+bool HttpServer::Parts::may_look(const std::string& shown, const std::string& from) const {
+  if (shown.empty()) return true;
+  try {
+    doors.access->check_person(shown, from, std::chrono::system_clock::now());
+    return true;
+  } catch (const AccessRefused&) {
+    return false;
+  }
+}
+
 /// Reads and forgets what the peer still sends, for a while: closing at once would reset the connection, and
 /// the answer could be lost on its way.
-asio::awaitable<void> HttpServer::Parts::see_off(beast::tcp_stream& stream) {
+asio::awaitable<void> HttpServer::Parts::see_off(HttpStream& stream) {
   boost::system::error_code error;
-  stream.socket().shutdown(tcp::socket::shutdown_send, error);
+  stream.next_layer().expires_after(farewell_patience);
+  if (stream.tls()) co_await stream.tls()->async_shutdown(asio::redirect_error(asio::use_awaitable, error));
+  stream.next_layer().socket().shutdown(tcp::socket::shutdown_send, error);
   std::array<char, 4096> ignored;
   const asio::mutable_buffer buffer = asio::buffer(ignored);
-  stream.expires_after(farewell_patience);
-  while (!error) co_await stream.async_read_some(buffer, asio::redirect_error(asio::use_awaitable, error));
+  while (!error)
+    co_await stream.next_layer().async_read_some(buffer, asio::redirect_error(asio::use_awaitable, error));
 }
 
 /// One request and its answer.
-asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, beast::flat_buffer& buffer) {
+asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::flat_buffer& buffer) {
   RequestParser parser;
   parser.header_limit(header_limit);
   parser.body_limit(submission_limit);
@@ -227,13 +211,23 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
 
   {
     const IdleTime idling(idle, stream);
-    stream.expires_after(settings.header_patience);
+    stream.next_layer().expires_after(settings.header_patience);
     co_await http::async_read_header(stream, buffer, parser,
                                      asio::redirect_error(asio::use_awaitable, error));
   }
   ApiRequest request = api_request(parser.get());
+  request.from = peer_address(stream.next_layer().socket()).to_string(), request.our_url = our_url;
+  request.is_encrypted = stream.tls() != nullptr;
   std::optional<ApiResponse> refused = error ? complaint(error, 0) : refusal(request, listening);
   if (error && !refused) co_return Then::farewell;
+  std::optional<Asker> asker;
+  const auto denied = [&]() -> std::optional<ApiResponse> {
+    const std::optional<Role> needed = role_needed(request);
+    if (!needed) return std::nullopt;
+    asker = asker_of(request, settings.exposure, doors.access, doors.master.tell);
+    return denial(asker, *needed);
+  };
+  if (!refused) refused = denied();
   const std::uint64_t limit = body_limit(request);
   const std::uint64_t expected = refused ? 0 : expected_body(parser, limit);
   if (!refused && expected > limit) refused = complaint(http::error::body_limit, limit);
@@ -243,25 +237,31 @@ asio::awaitable<Then> HttpServer::Parts::converse(beast::tcp_stream& stream, bea
 
   if (!refused) {
     parser.body_limit(limit);  // for a body in chunks, which does not tell its size
-    stream.expires_after(settings.body_patience);
+    stream.next_layer().expires_after(settings.body_patience);
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
     if (error) refused = complaint(error, limit);
     if (error && !refused) co_return Then::farewell;
+    if (!refused) refused = denied();  // the token may have been revoked while the body came
   }
   if (refused) co_return co_await reply(stream, std::move(*refused), parser.get(), false);
   if (is_live(parser.get())) {
     RequestParser::value_type upgrade = parser.release();
-    co_await live.serve(std::move(stream), std::move(upgrade));
+    std::function<bool()> may_stay = [this, shown = asker->shown, from = request.from] {
+      return may_look(shown, from);
+    };
+    co_await live.serve(std::move(stream), std::move(upgrade), std::move(may_stay));
     co_return Then::nothing;
   }
 
   request.body = std::move(parser.get().body());
-  request.has_left = [socket = stream.socket().native_handle()] { return has_left(socket); };
+  request.has_left = [socket = stream.next_layer().socket().native_handle()] { return has_left(socket); };
   ApiResponse answered = co_await respond(request);
+  if (request.method == "GET")  // nor does who was let in then see what there is now
+    if (std::optional<ApiResponse> denial = denied()) answered = std::move(*denial);
   co_return co_await reply(stream, std::move(answered), parser.get(), parser.get().keep_alive());
 }
 
-asio::awaitable<Then> HttpServer::Parts::reply(beast::tcp_stream& stream, ApiResponse answer,
+asio::awaitable<Then> HttpServer::Parts::reply(HttpStream& stream, ApiResponse answer,
                                                const RequestParser::value_type& request, bool keep_alive) {
   if (answer.body.size() >= large_answer && answer_bytes > 0 &&
       answer_bytes + answer.body.size() > memory_for_answers)
@@ -270,7 +270,7 @@ asio::awaitable<Then> HttpServer::Parts::reply(beast::tcp_stream& stream, ApiRes
   Response response = http_response(answer, request, keep_alive);
   http::response_serializer<http::span_body<const char>> serializer(response);
   while (!serializer.is_done()) {
-    stream.expires_after(write_patience);
+    stream.next_layer().expires_after(write_patience);
     co_await http::async_write_some(stream, serializer, asio::use_awaitable);
   }
   co_return response.keep_alive() ? Then::next_request : Then::farewell;
@@ -328,6 +328,6 @@ HttpServer::~HttpServer() {
   parts_->live_threads.join();
 }
 
-std::string HttpServer::url() const { return url_of(parts_->acceptor); }
+std::string HttpServer::url() const { return url_of(parts_->acceptor, parts_->settings); }
 
 }  // namespace rayfarm

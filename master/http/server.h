@@ -7,10 +7,13 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "common/net/certificates.h"
 #include "master/http/doors.h"
+#include "master/http/people.h"
 
 namespace rayfarm {
 
@@ -22,9 +25,11 @@ struct HttpError : std::runtime_error {
 };
 
 struct HttpSettings {
-  std::string listen = "127.0.0.1:5412";              // ADDRESS:PORT; port 0: any free one
-  bool insecure = false;                              // without it only loopback is listened to
-  int connections = 1024;                             // at once, viewers among them
+  std::string listen = "127.0.0.1:5412";        // ADDRESS:PORT; port 0: any free one
+  Exposure exposure = Exposure::loopback_only;  // of plaintext, and of askers without a token
+  std::optional<Identity> identity{};      // its certificate, and the authorities behind it; none: no TLS
+  std::string outward_host = "127.0.0.1";  // in links, where any address is listened to
+  int connections = 1024;                  // at once, viewers among them
   std::chrono::milliseconds header_patience{30'000};  // also how long an idle connection is kept
   std::chrono::milliseconds body_patience{60'000};    // 64 MB from a slow PC of the lab
   std::chrono::milliseconds viewer_patience{60'000};  // with one who takes nothing of what it watches
@@ -37,7 +42,7 @@ class HttpServer {
   /// Ends all connections and closes the farm's door; may run on the farm's thread.
   ~HttpServer();
 
-  /// With the port that is really listened to.
+  /// With the port that is really listened to; https where plaintext is not spoken.
   std::string url() const;
 
  private:

@@ -43,10 +43,13 @@ void FarmPrograms::start_master(const Words& options, const std::string& listen)
 }
 
 void FarmPrograms::start_worker(const std::string& name, int threads) {
-  const Words words{"rayfarm-worker",       "--master", farm_address_, "--name", name, "--threads",
-                    std::to_string(threads)};
+  start_worker_with(name, {"--master", farm_address_, "--threads", std::to_string(threads)});
+}
+
+void FarmPrograms::start_worker_with(const std::string& name, const Words& options) {
   workers_[name] =
-      std::make_unique<ChildProgram>(words, std::map<std::string, std::string>{}, folder / (name + ".log"));
+      std::make_unique<ChildProgram>(Words{"rayfarm-worker", "--name", name} + options,
+                                     std::map<std::string, std::string>{}, folder / (name + ".log"));
 }
 
 std::string FarmPrograms::start_listening_worker(const std::string& name) {

@@ -31,6 +31,7 @@ class FarmPrograms : public testing::Test {
   void start_master(const Words& options, const std::string& listen = "127.0.0.1:0");
   /// It dials the master.
   void start_worker(const std::string& name, int threads = 1);
+  void start_worker_with(const std::string& name, const Words& options);
   /// The first line that it says on stdout.
   std::string start_listening_worker(const std::string& name);
   ChildProgram& master() { return *master_; }

@@ -27,8 +27,8 @@ class MasterThread {
 
  public:
   explicit MasterThread(DoorTimes times = patient_door(), const Address& listen = {"127.0.0.1", 0},
-                        Security security = {})
-      : sessions_(io_, farm_, listen, std::move(security), times) {
+                        Security security = {}, Access* access = nullptr)
+      : sessions_(io_, farm_, listen, std::move(security), times, access) {
     ended_ = std::async(std::launch::async, [this] { run_until_end(io_, sessions_.run()); });
   }
   /// As kill -9 would: nobody is told.
@@ -51,7 +51,11 @@ class MasterThread {
     return {[this](const std::string& target) { sessions_.dial(parse_dial_target(target)); },
             [this] { return sessions_.dialling(); },
             [this](std::uint64_t after) { return farm_.log().after(after); },
-            [this](const std::string& name) { return sessions_.stop_dialling(name); }};
+            [this](const std::string& name) { return sessions_.stop_dialling(name); },
+            [this](const std::set<std::string>& certificates) { sessions_.cut_off(certificates); },
+            [this](const std::string& line) {
+              asio::post(io_, [this, line] { farm_.note({true, line, ""}); });
+            }};
   }
   /// Waits until the farm says yes.
   template <class Question>

@@ -12,14 +12,18 @@ inline OnFarm door_to(FarmThread& farm) {
 
 /// A master that dials nobody and has no log.
 inline MasterDoor lone_master() {
-  return {[](const std::string&) {}, [] { return std::vector<Dialling>{}; },
-          [](std::uint64_t) { return std::vector<LogLine>{}; }};
+  return {[](const std::string&) {},
+          [] { return std::vector<Dialling>{}; },
+          [](std::uint64_t) { return std::vector<LogLine>{}; },
+          [](const std::string&) { return false; },
+          [](const std::set<std::string>&) {},
+          [](const std::string&) {}};
 }
 
 class TestServer {
  public:
   explicit TestServer(OnFarm on_farm, HttpSettings settings = {.listen = "127.0.0.1:0"},
-                      MasterDoor master = lone_master())
+                      MasterDoor master = lone_master(), Access* access = nullptr)
       : door_(std::move(on_farm)),
         master_(std::move(master)),
         server_(std::move(settings), {.farm = door_,
@@ -28,7 +32,8 @@ class TestServer {
                                       .master = master_,
                                       .app = app_,
                                       .scenes = scenes_,
-                                      .assets = assets_}) {}
+                                      .assets = assets_,
+                                      .access = access}) {}
 
   std::string url() const { return server_.url(); }
   std::uint16_t port() const {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "common/work/engine.h"
 #include "tests/support/framed_socket.h"
 #include "tests/support/simple_job.h"
 #include "tests/support/worker_thread.h"
@@ -45,7 +46,7 @@ TEST(Worker, SaysHelloAndDeliversWhatItIsAssigned) {
   Door door;
   WorkerThread worker(worker_for(door.address(), "lab7"), prepare_positions);
   MasterAtDoor master(door);
-  EXPECT_EQ(master.hello, (Hello{protocol_version, RAYFARM_VERSION, "lab7", "a test's CPU", 1}));
+  EXPECT_EQ(master.hello, (Hello{{}, RAYFARM_VERSION, "lab7", "a test's CPU", 1, engine_fingerprint()}));
   master.welcome();
   master.start_job();
   for (std::uint32_t tile = 0; tile < 20; ++tile) master.assign(100 + tile, tile);

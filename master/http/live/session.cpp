@@ -31,8 +31,11 @@ websocket::stream_base::timeout timeouts(std::chrono::milliseconds patience) {
 }  // namespace
 
 struct LiveSessions::Session {
-  Session(beast::tcp_stream stream, std::set<Session*>& all)
-      : socket(std::move(stream)), news(socket.get_executor(), Clock::time_point::max()), all(all) {
+  Session(HttpStream stream, std::function<bool()> may_stay, std::set<Session*>& all)
+      : socket(std::move(stream)),
+        may_stay(std::move(may_stay)),
+        news(socket.get_executor(), Clock::time_point::max()),
+        all(all) {
     all.insert(this);
   }
   ~Session() { all.erase(this); }
@@ -45,7 +48,8 @@ struct LiveSessions::Session {
     beast::get_lowest_layer(socket).close();
   }
 
-  websocket::stream<beast::tcp_stream> socket;
+  websocket::stream<HttpStream> socket;
+  const std::function<bool()> may_stay;
   Viewer viewer;
   asio::steady_timer news;  // never expires: cancelled when there may be something to send
   std::optional<Clock::time_point> writing_since;
@@ -57,10 +61,11 @@ LiveSessions::LiveSessions(asio::io_context& io, asio::thread_pool& threads, con
                            std::chrono::milliseconds patience)
     : io_(io), threads_(threads), patience_(patience), reporter_(doors) {}
 
-asio::awaitable<void> LiveSessions::serve(beast::tcp_stream stream,
-                                          beast::http::request<beast::http::string_body> request) {
-  stream.expires_never();  // the WebSocket has deadlines of its own
-  const auto session = std::make_shared<Session>(std::move(stream), sessions_);
+asio::awaitable<void> LiveSessions::serve(HttpStream stream,
+                                          beast::http::request<beast::http::string_body> request,
+                                          std::function<bool()> may_stay) {
+  stream.next_layer().expires_never();  // the WebSocket has deadlines of its own
+  const auto session = std::make_shared<Session>(std::move(stream), std::move(may_stay), sessions_);
   session->socket.set_option(timeouts(patience_));
   session->socket.read_message_max(longest_text);
   session->socket.auto_fragment(false);
@@ -129,7 +134,7 @@ asio::awaitable<void> LiveSessions::report() {
     asio::awaitable<LiveNews> looking = look_up(hub_.wish());
     LiveNews news = co_await asio::co_spawn(threads_, std::move(looking), asio::use_awaitable);
     hub_.take(std::move(news));
-    leave_the_stuck();
+    leave_some();
     for (Session* session : sessions_) session->news.cancel();
     co_await pause.async_wait(asio::use_awaitable);
   }
@@ -139,10 +144,12 @@ asio::awaitable<void> LiveSessions::report() {
 
 asio::awaitable<LiveNews> LiveSessions::look_up(LiveWish wish) { co_return reporter_.look_up(wish); }
 
-void LiveSessions::leave_the_stuck() {
+/// Those who take nothing, and those who are nobody any more.
+void LiveSessions::leave_some() {
   const Clock::time_point now = Clock::now();
   for (Session* session : sessions_)
-    if (session->writing_since && now - *session->writing_since > patience_) session->end();
+    if (!session->may_stay() || (session->writing_since && now - *session->writing_since > patience_))
+      session->end();
 }
 
 }  // namespace rayfarm

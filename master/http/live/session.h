@@ -9,12 +9,13 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/thread_pool.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <chrono>
+#include <functional>
 #include <set>
 
+#include "master/http/http_stream.h"
 #include "master/http/live/hub.h"
 #include "master/http/live/reporter.h"
 
@@ -29,9 +30,10 @@ class LiveSessions {
   LiveSessions(boost::asio::io_context& io, boost::asio::thread_pool& threads, const Doors& doors,
                std::chrono::milliseconds patience);
 
-  /// Talks with a viewer until it ends. The request asks for the upgrade, and may.
-  boost::asio::awaitable<void> serve(boost::beast::tcp_stream stream,
-                                     boost::beast::http::request<boost::beast::http::string_body> request);
+  /// Talks with a viewer until it ends, or may no longer stay. The request asks for the upgrade, and may.
+  boost::asio::awaitable<void> serve(HttpStream stream,
+                                     boost::beast::http::request<boost::beast::http::string_body> request,
+                                     std::function<bool()> may_stay);
 
  private:
   struct Session;
@@ -42,7 +44,7 @@ class LiveSessions {
   boost::asio::awaitable<void> report();
   boost::asio::awaitable<LiveNews> look_up(LiveWish wish);
   void watch(Session& session, const std::string& text);
-  void leave_the_stuck();
+  void leave_some();
 
   boost::asio::io_context& io_;
   boost::asio::thread_pool& threads_;

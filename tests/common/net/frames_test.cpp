@@ -171,7 +171,7 @@ TEST(FrameHeaders, SayWhatIsWrong) {
 }
 
 TEST(Messages, OfALaterProtocolCanStillSayHello) {
-  Hello hello{protocol_version + 1, "9.9", "future", "cpu", 4};
+  Hello hello{{protocol_version + 1, protocol_version, 7}, "9.9", "future", "cpu", 4, std::string(64, 'f')};
   Bytes frame = encode(ToMaster{hello});
   frame.push_back(42);  // what we cannot know yet
   ++frame[8];
@@ -182,8 +182,8 @@ TEST(Messages, OfALaterProtocolCanStillSayHello) {
 }
 
 TEST(Messages, WithTextThatCannotBeShownAreNotSent) {
-  EXPECT_THROW(encode(ToMaster{Hello{1, "0", "bell\a", "", 1}}), CodecError);
-  EXPECT_THROW(encode(ToMaster{Hello{1, "0", "half \xC3", "", 1}}), CodecError);
+  EXPECT_THROW(encode(ToMaster{Hello{{}, "0", "bell\a", "", 1, std::string(64, 'e')}}), CodecError);
+  EXPECT_THROW(encode(ToMaster{Hello{{}, "0", "half \xC3", "", 1, std::string(64, 'e')}}), CodecError);
   EXPECT_THROW(encode(ToMaster{Goodbye{std::string(5000, 'x')}}), CodecError);
 }
 

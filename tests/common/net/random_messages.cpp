@@ -50,7 +50,7 @@ PassImage random_pass(std::mt19937_64& random, int pass) {
 std::vector<ToWorker> random_to_worker(std::mt19937_64& random) {
   const Bytes scene = encode_scene(named_scene(random));
   const std::string hash = sha256_hex(scene);
-  return {Welcome{random_name(random)},
+  return {Welcome{random_name(random), {4, 4, random()}},
           Refused{"the name " + random_name(random) + " is banned"},
           SceneData{hash, std::make_shared<const Bytes>(scene)},
           FrameStart{JobId{random()}, hash, random_settings(random), {hash, std::string(64, 'b')}},
@@ -61,7 +61,8 @@ std::vector<ToWorker> random_to_worker(std::mt19937_64& random) {
           Heartbeat{},
           Goodbye{"the master stops"},
           asset_data(ball_mesh(4, 5)),
-          AssetEnd{{hash, std::string(64, 'c')}}};
+          AssetEnd{{hash, std::string(64, 'c')}},
+          Paired{Bytes(random() % 2000, 'p')}};
 }
 
 std::vector<ToMaster> random_to_master(std::mt19937_64& random) {
@@ -73,10 +74,21 @@ std::vector<ToMaster> random_to_master(std::mt19937_64& random) {
                 0.25};
   for (int pass = 0; pass < pass_count; ++pass)
     if (pass == 3 || random() % 2) result.images.push_back(random_pass(random, pass));
-  return {
-      Hello{protocol_version, "0.1.0", random_name(random), "Some CPU", static_cast<std::uint32_t>(random())},
-      std::move(result), GiveBack{random_leases(random), "it stops"}, Heartbeat{},
-      Goodbye{"the worker stops"}};
+  return {Hello{{4, 4, random()},
+                "0.1.0",
+                random_name(random),
+                "Some CPU",
+                static_cast<std::uint32_t>(random()),
+                std::string(64, 'e')},
+          std::move(result),
+          GiveBack{random_leases(random), "it stops"},
+          Heartbeat{},
+          Goodbye{"the worker stops"},
+          Join{{4, 4, random()},
+               "0.1.0",
+               "0123456789abcdef01234567",
+               random_name(random),
+               Bytes(random() % 2000, 'r')}};
 }
 
 }  // namespace rayfarm

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "common/work/engine.h"
 #include "tests/support/farm_jobs.h"
 #include "tests/support/framed_socket.h"
 #include "tests/support/master_thread.h"
@@ -14,7 +15,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Hello hello_from(std::string name) { return {protocol_version, "0.1.0", std::move(name), "a test's CPU", 1}; }
+Hello hello_from(std::string name) {
+  return {{}, "0.1.0", std::move(name), "a test's CPU", 1, engine_fingerprint()};
+}
 
 /// Connected, not a word said.
 struct Peer : WorkerByHand {
@@ -59,11 +62,33 @@ TEST(Sessions, RefuseAnotherProtocolAndSayWhatToDo) {
   MasterThread master;
   Peer peer(master);
   Hello hello = hello_from("lab7");
-  hello.protocol = protocol_version + 1;
+  hello.versions = {6, 5, 0};
   peer.send(hello);
-  EXPECT_EQ(peer.receive_a<Refused>().reason,
-            "rayfarm 0.1.0 speaks protocol 4, this master (0.1.0) protocol 3: install the same version on "
-            "both PCs");
+  EXPECT_EQ(
+      peer.receive_a<Refused>().reason,
+      "rayfarm 0.1.0 speaks protocols 5 to 6, this master (0.1.0) protocol 4: install the same version on "
+      "both PCs");
+  peer.wait_for_end();
+}
+
+TEST(Sessions, SpeakTheNewestProtocolAndTheCapabilitiesThatBothHave) {
+  MasterThread master;
+  Peer peer(master);
+  Hello hello = hello_from("from the future");
+  hello.versions = {9, 2, 0b101};
+  peer.send(hello);
+  EXPECT_EQ(peer.receive_a<Welcome>().versions, (Versions{protocol_version, protocol_version, 0}));
+}
+
+TEST(Sessions, RefuseARendererThatMakesOtherBits) {
+  MasterThread master;
+  Peer peer(master);
+  Hello hello = hello_from("lab7");
+  hello.engine = std::string(64, '0');
+  peer.send(hello);
+  const std::string reason = peer.receive_a<Refused>().reason;
+  EXPECT_NE(reason.find("engine 00000000"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("install the same build on both PCs"), std::string::npos) << reason;
   peer.wait_for_end();
 }
 
@@ -74,7 +99,7 @@ TEST(Sessions, RefuseAPeerThatDoesNotSayHello) {
       {Bytes{'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '/', '1', '.', '1', '\r', '\n', '\r', '\n'},
        "the peer does not speak rayfarm's protocol"},
       {encode(ToMaster{hello_from("")}), "a worker needs a name: give it one with --name"},
-      {encode(ToMaster{Hello{protocol_version, "0.1.0", "lab7", "", 0}}),
+      {encode(ToMaster{Hello{{}, "0.1.0", "lab7", "", 0, engine_fingerprint()}}),
        "a worker has 1 to 4096 threads, not 0"},
   };
   for (const auto& [bytes, reason] : cases) {

@@ -1,0 +1,272 @@
+// Who may ask what: the whole server, over plaintext and TLS on loopback.
+#include "master/http/people.h"
+
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "master/http/api.h"
+#include "master/http/client.h"
+#include "tests/support/raw_peer.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/test_server.h"
+
+namespace rayfarm {
+namespace {
+
+const WallTime now = std::chrono::system_clock::now();
+
+struct People : testing::Test {
+  ScratchFolder folder;
+  Access access{folder.path(), {"localhost", "127.0.0.1"}, now};
+  FarmThread farm;
+  std::mutex mutex;
+  std::vector<std::string> told;
+
+  Identity identity() const {
+    return {access.identity().key, access.identity().certificate + access.authority()};
+  }
+  HttpSettings settings(Exposure exposure) const {
+    return {.listen = "127.0.0.1:0", .exposure = exposure, .identity = identity()};
+  }
+  MasterDoor master() {
+    MasterDoor door = lone_master();
+    door.tell = [this](const std::string& line) {
+      const std::lock_guard lock(mutex);
+      told.push_back(line);
+    };
+    return door;
+  }
+  std::string token(Role role) {
+    return text_of(access.issue({.kind = CredentialKind::token, .role = role}, now).token);
+  }
+};
+
+unsigned status_of(const std::string& url, const std::string& method, const std::string& target,
+                   const std::string& token) {
+  return send({.method = method, .url = url, .target = target, .body = "{}", .token = token}).status;
+}
+
+TEST(Roles, AreNeededOnEachRouteButThoseThatTellNothingOfTheFarm) {
+  std::set<std::string> open;
+  for (const ApiRoute& route : api_routes()) {
+    ApiRequest request;
+    request.method = route.method, request.target = route.path;
+    const std::optional<Role> needed = role_needed(request);
+    if (!needed)
+      open.insert(route.method + " " + route.path);
+    else
+      EXPECT_GE(*needed, route.method == "GET" ? Role::viewer : Role::artist) << route.path;
+  }
+  EXPECT_EQ(open, (std::set<std::string>{"GET /api/v1/version", "GET /api/v1/openapi.json",
+                                         "GET /api/v1/authority.pem", "GET /login", "POST /api/v1/login"}));
+}
+
+TEST_F(People, OfAClosedMasterAreWhatTheirTokensSay) {
+  const TestServer server(door_to(farm), settings(Exposure::closed), master(), &access);
+  const std::string viewer = token(Role::viewer), artist = token(Role::artist), admin = token(Role::admin);
+  const auto status = [&](const char* method, const char* target, const std::string& shown) {
+    return status_of(server.url(), method, target, shown);
+  };
+  ASSERT_TRUE(server.url().starts_with("https://")) << server.url();
+  EXPECT_EQ(status("GET", "/api/v1/jobs", viewer), 200u);
+  EXPECT_EQ(status("POST", "/api/v1/jobs/1/pause", viewer), 403u);
+  EXPECT_EQ(status("POST", "/api/v1/jobs/1/pause", artist), 404u) << "it may, but there is no such job";
+  EXPECT_EQ(status("POST", "/api/v1/workers/pc/drain", artist), 403u);
+  EXPECT_EQ(status("POST", "/api/v1/workers/pc/drain", admin), 404u);
+  EXPECT_EQ(status("GET", "/api/v1/tokens", artist), 403u);
+  EXPECT_EQ(status("GET", "/api/v1/tokens", admin), 200u);
+  EXPECT_EQ(status("GET", "/", text_of(new_token(access.fingerprint()))), 200u)
+      << "the app's files hold nothing";
+  EXPECT_EQ(status("GET", "/api/v1/authority.pem", viewer), 200u);
+}
+
+TEST_F(People, WithoutAGoodTokenAreNobodyAndOnlyTheLogSaysWhy) {
+  const TestServer server(door_to(farm), settings(Exposure::closed), master(), &access);
+  const Issued revoked = access.issue({.kind = CredentialKind::token, .role = Role::admin}, now);
+  access.revoke(revoked.credential.id);
+  const HttpReply reply =
+      send({.url = server.url(), .target = "/api/v1/jobs", .body = {}, .token = text_of(revoked.token)});
+  EXPECT_EQ(reply.status, 401u);
+  EXPECT_EQ(reply.body.find("revoked"), std::string::npos);
+  const std::lock_guard lock(mutex);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("nobody at 127.0.0.1: token " + revoked.credential.id + " was revoked"),
+            std::string::npos)
+      << told[0];
+}
+
+TEST_F(People, OfThisPcNeedNoTokenUnlessItIsClosed) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  ASSERT_TRUE(server.url().starts_with("http://")) << server.url();
+  EXPECT_EQ(status_of(server.url(), "GET", "/api/v1/tokens", ""), 200u);
+  const std::string https = "https" + server.url().substr(4);
+  EXPECT_EQ(status_of(https, "GET", "/api/v1/tokens", token(Role::admin)), 200u) << "TLS at the same port";
+}
+
+TEST_F(People, OfThisPcAreKnownAlsoWhereAllAddressesAreListenedTo) {
+  HttpSettings everywhere = settings(Exposure::loopback_only);
+  for (const char* any : {"0.0.0.0:0", "[::]:0"}) try {
+      everywhere.listen = any;
+      const TestServer server(door_to(farm), everywhere, master(), &access);
+      EXPECT_TRUE(server.url().starts_with("https://")) << server.url();
+      const std::string url = "http://127.0.0.1:" + std::to_string(server.port());
+      EXPECT_EQ(status_of(url, "GET", "/api/v1/tokens", ""), 200u) << any;
+    } catch (const HttpError& error) {
+      GTEST_SKIP() << "this PC has no IPv6: " << error.what();
+    }
+}
+
+TEST_F(People, WhomAProxyForwardsAreNotOfThisPc) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  RawPeer peer(server.port());
+  peer.send(
+      "GET /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Forwarded-For: 10.0.0.7\r\nConnection: "
+      "close\r\n\r\n");
+  EXPECT_TRUE(peer.rest().starts_with("HTTP/1.1 401"));
+}
+
+TEST_F(People, SpeakNoPlaintextWithAClosedMaster) {
+  const TestServer server(door_to(farm), settings(Exposure::closed), master(), &access);
+  RawPeer peer(server.port());
+  peer.send("GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+  EXPECT_EQ(peer.rest(), "");
+}
+
+TEST_F(People, ComeInWithALoginLinkOnce) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const Issued link = access.issue({.kind = CredentialKind::login_link, .role = Role::viewer}, now);
+  const auto visit = [&](const std::string& request) {
+    RawPeer peer(server.port());
+    peer.send(request);
+    return peer.rest();
+  };
+  const std::string login =
+      "GET /login?code=" + text_of(link.token) + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n";
+  const std::string answer = visit(login);
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 303")) << answer;
+  const std::size_t at = answer.find("Set-Cookie: rayfarm=");
+  ASSERT_NE(at, std::string::npos) << answer;
+  EXPECT_NE(answer.find("HttpOnly; SameSite=Strict"), std::string::npos);
+  const std::string cookie = answer.substr(at + 12, answer.find(';', at) - at - 12);
+  const auto jobs = [&] {
+    return visit(
+        "GET /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Forwarded-For: 10.0.0.7\r\nCookie: a=b; " +
+        cookie + "\r\nConnection: close\r\n\r\n");
+  };
+  EXPECT_TRUE(jobs().starts_with("HTTP/1.1 200"));
+  EXPECT_TRUE(visit(login).starts_with("HTTP/1.1 403")) << "the second time";
+  access.revoke(link.credential.id);
+  EXPECT_TRUE(jobs().starts_with("HTTP/1.1 401"));
+}
+
+TEST_F(People, ComeInWithATokenThatTheirBrowserKeepsFromThenOn) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const Issued artist = access.issue({.kind = CredentialKind::token, .role = Role::artist}, now);
+  const auto log_in = [&](const std::string& body) {
+    RawPeer peer(server.port());
+    peer.send(
+        "POST /api/v1/login HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Real-IP: 10.0.0.7\r\nContent-Type: "
+        "application/json\r\nContent-Length: " +
+        std::to_string(body.size()) + "\r\nConnection: close\r\n\r\n" + body);
+    return peer.rest();
+  };
+  const std::string answer = log_in(R"({"token": " )" + text_of(artist.token) + R"( "})");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+  EXPECT_NE(
+      answer.find("Set-Cookie: rayfarm=" + text_of(artist.token) + "; Path=/; HttpOnly; SameSite=Strict"),
+      std::string::npos)
+      << answer;
+  EXPECT_TRUE(log_in(R"({"token": "hello"})").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(log_in(R"({"token": "a; Domain=example.com"})").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(log_in(R"({"token": 7})").starts_with("HTTP/1.1 422"));
+}
+
+TEST_F(People, WhoWaitForNewsGetNoneWhenTheirTokenIsRevokedMeanwhile) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const Issued viewer = access.issue({.kind = CredentialKind::token, .role = Role::viewer}, now);
+  std::uint64_t revision = 0;
+  farm.run([&](Farm& f, FarmTime) { revision = f.revision(); });
+  RawPeer peer(server.port());
+  peer.send("GET /api/v1/jobs?wait=1&after=" + std::to_string(revision) +
+            " HTTP/1.1\r\nHost: 127.0.0.1\r\nVia: 1.1 proxy\r\nAuthorization: Bearer " +
+            text_of(viewer.token) + "\r\nConnection: close\r\n\r\n");
+  access.revoke(viewer.credential.id);
+  EXPECT_TRUE(peer.rest().starts_with("HTTP/1.1 401"));
+}
+
+TEST_F(People, WhoseTokenIsRevokedWhileTheyAreStillSendingChangeNothing) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const Issued admin = access.issue({.kind = CredentialKind::token, .role = Role::admin}, now);
+  const std::size_t before = access.list().size();
+  RawPeer peer(server.port());
+  peer.send(
+      "POST /api/v1/tokens HTTP/1.1\r\nHost: 127.0.0.1\r\nVia: 1.1 proxy\r\nExpect: 100-continue\r\n"
+      "Content-Type: application/json\r\nContent-Length: 2\r\nAuthorization: Bearer " +
+      text_of(admin.token) + "\r\nConnection: close\r\n\r\n{");
+  access.revoke(admin.credential.id);
+  peer.send("}");
+  EXPECT_TRUE(peer.rest().starts_with("HTTP/1.1 401"));
+  EXPECT_EQ(access.list().size(), before);
+}
+
+TEST_F(People, WhoWatchAreCutOffAtOnceWhenTheirTokenIsRevoked) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const Issued viewer = access.issue({.kind = CredentialKind::token, .role = Role::viewer}, now);
+  const auto upgrade = [&](const std::string& shown) {
+    return "GET /api/v1/live HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Forwarded-For: 10.0.0.7\r\nUpgrade: "
+           "websocket\r\n"
+           "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
+           "dGhlIHNhbXBsZSBub25jZQ==\r\n"
+           "Authorization: Bearer " +
+           shown + "\r\n\r\n";
+  };
+  RawPeer nobody(server.port());
+  nobody.send(upgrade("hello"));
+  EXPECT_TRUE(nobody.rest().starts_with("HTTP/1.1 401"));
+  RawPeer peer(server.port());
+  peer.send(upgrade(text_of(viewer.token)));
+  EXPECT_TRUE(peer.some().starts_with("HTTP/1.1 101"));
+  access.revoke(viewer.credential.id);
+  peer.rest();  // comes to an end
+}
+
+TEST_F(People, DoNotTalkToAMasterThatTheirTokenIsNotFor) {
+  const TestServer server(door_to(farm), settings(Exposure::closed), master(), &access);
+  const std::string elsewhere = text_of(new_token(std::string(64, 'a')));
+  EXPECT_THROW(status_of(server.url(), "GET", "/api/v1/jobs", elsewhere), MasterUntrusted);
+  EXPECT_THROW(status_of(server.url(), "GET", "/api/v1/jobs", ""), MasterUntrusted);
+  EXPECT_THROW(status_of("http://192.0.2.1:5412", "GET", "/api/v1/jobs", token(Role::viewer)),
+               std::invalid_argument)
+      << "a token does not leave this PC in plaintext";
+}
+
+TEST_F(People, MakeAndRevokeTokensOverTheApi) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const auto post = [&](const std::string& target, const std::string& body) {
+    return send({.method = "POST", .url = server.url(), .target = target, .body = body});
+  };
+  const auto made =
+      nlohmann::json::parse(post("/api/v1/tokens", R"({"role": "artist", "name": "Ann"})").body);
+  EXPECT_EQ(access.check_person(made.at("token"), "", now).role, Role::artist);
+  EXPECT_EQ(made.at("authority"), access.fingerprint());
+  EXPECT_EQ(post("/api/v1/tokens/" + made.at("id").get<std::string>() + "/revoke", "{}").status, 200u);
+  EXPECT_THROW(access.check_person(made.at("token"), "", now), AccessRefused);
+  for (const char* bad : {R"({"role": "king"})", R"({"uses": 0})", R"({"ttl": -1})", R"({"name": "\u0007"})",
+                          R"({"role": "worker", "link": true})"})
+    EXPECT_EQ(post("/api/v1/tokens", bad).status, 422u) << bad;
+  EXPECT_EQ(post("/api/v1/tokens", R"({"rolle": "king"})").status, 400u);
+  EXPECT_EQ(post("/api/v1/tokens/nobody/revoke", "{}").status, 404u);
+}
+
+TEST_F(People, OfAnotherVersionAreToldSo) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const HttpReply reply = send({.url = server.url(), .target = "/api/v2/jobs", .body = {}});
+  EXPECT_EQ(reply.status, 426u);
+  EXPECT_NE(reply.body.find("install the same rayfarm on both PCs"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rayfarm
