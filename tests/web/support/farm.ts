@@ -43,20 +43,24 @@ export class Farm {
   private readonly workers = new Map<string, ChildProcess>();
 
   /// A started master; its own threads render too.
-  static async start(options: { threads?: number } = {}): Promise<Farm> {
-    const farm = new Farm(options.threads ?? 1);
+  static async start(options: { threads?: number; closed?: boolean } = {}): Promise<Farm> {
+    const farm = new Farm(options.threads ?? 1, options.closed ?? false);
     await farm.startMaster();
     return farm;
   }
-  private constructor(private readonly threads: number) {}
+  private constructor(
+    private readonly threads: number,
+    private readonly closed: boolean, // encrypted, and asks also this PC for tokens
+  ) {}
 
   /// Again at the same addresses, if it was started before.
   async startMaster(): Promise<void> {
     const args = ["--listen", this.farmAddress, "--http", this.httpAddress, "--threads", String(this.threads)];
+    if (this.closed) args.push("--closed", "--state", this.file("state"));
     const child = spawn(program("rayfarm-master"), args, { stdio: ["ignore", "pipe", "pipe"] });
     this.master = child;
     const line = await firstLine(child); // rayfarm-master: workers 127.0.0.1:1, http http://127.0.0.1:2
-    const said = /workers (\S+), http (http:\/\/(\S+))/.exec(line);
+    const said = /workers (\S+), http (https?:\/\/(\S+))/.exec(line);
     if (!said) throw new Error(`what is this? ${line}`);
     [, this.farmAddress, this.url, this.httpAddress] = said as unknown as [string, string, string, string];
   }
@@ -76,7 +80,8 @@ export class Farm {
 
   /// Runs the command against this master; what it printed. Rejects unless it exits with 0.
   async rayfarm(...args: string[]): Promise<string> {
-    const env = { ...process.env, RAYFARM_MASTER: this.url };
+    const env: NodeJS.ProcessEnv = { ...process.env, RAYFARM_MASTER: this.url };
+    if (this.closed) env.RAYFARM_TOKEN_FILE = this.file("state/admin.token");
     const { stdout } = await promisify(execFile)(program("rayfarm"), args, {
       env,
       cwd: this.folder,

@@ -8,6 +8,7 @@ import { Header } from "./Header";
 import { Help } from "./Help";
 import { columnShown, columnWidth, panelsShown, pictureShare, raysBeside } from "./layout";
 import { lazy } from "./lazy";
+import { Login } from "./Login";
 import { LostBanner, Notices } from "./Notices";
 import { Palette } from "./Palette";
 import { page } from "./route";
@@ -52,6 +53,7 @@ export function App() {
       <Palette />
       <Help />
       <Confirm />
+      <Login />
     </>
   );
 }

@@ -2,13 +2,13 @@ import { now } from "./clock";
 import { ago } from "./format";
 import { Icon } from "./Icon";
 import { retry } from "./live";
-import { dismiss, lostSince, notices } from "./state";
+import { dismiss, loginWanted, lostSince, notices } from "./state";
 import "./notices.css";
 
 /// Over the page while the master is out of reach; goes by itself.
 export function LostBanner() {
   const since = lostSince.value;
-  if (since === null) return null;
+  if (since === null || loginWanted.value) return null;
   return (
     <div class="lost-banner">
       <span role="status">The connection to the master is lost; what you see may be old.</span>

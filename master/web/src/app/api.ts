@@ -1,4 +1,5 @@
 // Requests to the master. Every failure is an ApiError in words for people.
+import { loginWanted } from "./state";
 
 export class ApiError extends Error {
   constructor(
@@ -20,6 +21,7 @@ async function request(path: string, init: RequestInit): Promise<Response> {
     throw new ApiError(0, "The master does not answer; is it running?");
   }
   if (response.ok) return response;
+  if (response.status === 401) loginWanted.value = true;
   let words = `${response.status} ${response.statusText}`;
   try {
     const body = (await response.json()) as { error?: string };

@@ -4,7 +4,7 @@ import { getJson, urlOf } from "./api";
 import { hear } from "./clock";
 import { startLive, type LiveClient, type News, type Socket } from "./live_client";
 import { reconcile } from "./reconcile";
-import { jobs, link, log, lostSince, malformed, maps, tellError, workers } from "./state";
+import { jobs, link, log, loginWanted, lostSince, malformed, maps, tellError, workers } from "./state";
 import type { LayerMessage, LogLine, MapEntry, TileMessage, Watch } from "./types";
 
 export interface LayerListener {
@@ -41,11 +41,13 @@ const news: News = {
   opened() {
     link.value = "open";
     lostSince.value = null;
+    loginWanted.value = false;
     getJson<{ maps: MapEntry[] }>("/maps").then((answer) => (maps.value = answer.maps), tellError);
   },
   lost() {
     link.value = "lost";
     lostSince.value ??= Date.now();
+    getJson("/maps").catch(() => {}); // a WebSocket is not told why it is refused: this tells whether it is the login
   },
   state(newJobs, newWorkers) {
     batch(() => {

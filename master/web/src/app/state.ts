@@ -18,6 +18,8 @@ export type Link = "connecting" | "open" | "lost";
 export const link = signal<Link>("connecting");
 /// Since when it is lost, milliseconds.
 export const lostSince = signal<number | null>(null);
+/// The master does not know who this browser is.
+export const loginWanted = signal(false);
 /// Messages of the master that made no sense.
 export const malformed = signal(0);
 
