@@ -1,5 +1,6 @@
 #include "tests/end_to_end/farm_programs.h"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <regex>
@@ -32,7 +33,8 @@ void FarmPrograms::TearDown() {
 // The daemons. ---------------------------------------------------------------------------------------------
 
 void FarmPrograms::start_master(const Words& options, const std::string& listen) {
-  const Words words{"rayfarm-master", "--listen", listen, "--http", "127.0.0.1:0"};
+  Words words{"rayfarm-master", "--listen", listen};
+  if (std::ranges::find(options, "--http") == options.end()) words = words + Words{"--http", "127.0.0.1:0"};
   master_ = std::make_unique<ChildProgram>(words + options, std::map<std::string, std::string>{},
                                            folder / "master.log");
   const std::string line = master_->next_line();
