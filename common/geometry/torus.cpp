@@ -1,82 +1,18 @@
 #include "common/geometry/torus.h"
 
 #include <cmath>
+#include <span>
 
+#include "common/geometry/cubic.h"
 #include "common/geometry/sphere.h"
+#include "common/geometry/torus_line.h"
 
 namespace rayfarm {
 namespace {
 
-/// The torus and the line in units of R + r, the line parametrised by length u from near its closest approach.
-template <class T>
-struct TorusLine {
-  T R, r;                         // R + r = 1
-  Vec3<T> foot, along;            // a point near the closest approach to the centre; unit direction
-  T foot_error;                   // of each coordinate of foot
-  T spread;                       // of each coordinate of along, and of its length
-  T low, high;                    // outside of low < u < high the line is outside
-  T t_of_foot, t_error, t_per_u;  // t = t_of_foot + u * t_per_u
-};
-
 template <class T>
 T square(T x) {
   return x * x;
-}
-
-/// o + d t, rounded once.
-double moved_along(double o, double d, double t) { return std::fma(d, t, o); }
-DoubleDouble moved_along(const DoubleDouble& o, const DoubleDouble& d, const DoubleDouble& t) {
-  return o + d * t;
-}
-template <class T>
-Vec3<T> moved_along(const Vec3<T>& o, const Vec3<T>& d, T t) {
-  return {moved_along(o.x, d.x, t), moved_along(o.y, d.y, t), moved_along(o.z, d.z, t)};
-}
-
-/// Cuts off what lies above or below the torus. False when nothing is left, or only what lies in its hole.
-template <class T>
-bool cut_to_bounds(TorusLine<T>& l, T slack) {
-  using std::fabs;
-  const T z = l.foot.z, dz = l.along.z, top = l.r + slack;
-  const T rise = l.high * fabs(dz);  // low = -high
-  if (fabs(z) > top + rise) return false;
-  const T z_first = select(dz > T(0), z, -z);
-  if (top + z_first < rise) l.low = -(top + z_first) / fabs(dz);
-  if (top - z_first < rise) l.high = (top - z_first) / fabs(dz);
-  const T hole = l.R - l.r - slack;
-  const auto in_hole = [&](T u) {
-    const T x = l.foot.x + l.along.x * u, y = l.foot.y + l.along.y * u;
-    return hole > T(0) && x * x + y * y < hole * hole;
-  };
-  return !(in_hole(l.low) && in_hole(l.high));
-}
-
-/// False when the line misses the torus for certain. A line that runs from the ray's origin by t d has its foot
-/// right to a few ulp of the foot itself, since o + t d is rounded once.
-template <class T>
-bool set_up(const Torus& torus, const LocalRay<T>& ray, TorusLine<T>& l) {
-  using std::fabs, std::sqrt;
-  constexpr double u = unit_roundoff_of<T>;
-  const T unit = T(1) / (T(torus.R) + T(torus.r));
-  const Vec3<T>&o = ray.origin, &d = ray.direction;
-  const T inverse_dd = T(1) / dot(d, d);
-  const T first = -(dot(o, d) * inverse_dd);
-  const Vec3<T> rough = moved_along(o, d, first);
-  const T second = -(dot(rough, d) * inverse_dd);
-  const Vec3<T> foot = (rough + d * second) * unit;
-  const T bb = dot(foot, foot), far = fabs(first);
-  l.foot_error = (ray.origin_error + far * ray.direction_error) * unit + T(4 * u);
-  const T slack = T(8) * l.foot_error;
-  if (!(bb < T(1) + slack)) return false;
-
-  const T length = sqrt(inverse_dd);
-  l.R = T(torus.R) * unit, l.r = T(torus.r) * unit;
-  l.foot = foot, l.along = d * length;
-  l.spread = ray.spread * length + T(4 * u);
-  l.high = sqrt(T(1) + slack - bb) + slack, l.low = -l.high;
-  l.t_of_foot = first + second, l.t_per_u = length / unit;
-  l.t_error = T(2 * u) * far + (l.foot_error + T(4 * u)) * l.t_per_u;
-  return cut_to_bounds(l, slack + T(2) * l.spread);
 }
 
 /// f = (rho - R)^2 + z^2 - r^2, for a spindle torus times the same of rho + R: negative inside.
@@ -127,37 +63,6 @@ struct CriticalPoints {
   T u[3];
 };
 
-/// Somewhere near the positive zero of x^3 + p x - q, q > 0: where there are three, within 2^-13 of it.
-template <class T>
-T near_outer_zero(T p, T q) {
-  using std::sqrt;
-  const T top = T(2);  // p and q are at most about 2
-  if (!(p < T(0))) return p * top > q ? q / p : top;
-  const T h = sqrt(-p / T(3)), fold = T(2) * h * h * h;
-  if (q > T(8) * fold) return top;
-  const T k = q / fold;
-  if (k > T(1)) return least(h * (T(2) + (k - T(1)) * T(2.0 / 9)), top);
-  // 2 cos(acos(k) / 3), interpolated.
-  return h * (T(1.7321326590663837) +
-              k * (T(0.3306607004416917) + k * (T(-0.0813823948457791) + k * T(0.018639367794966707))));
-}
-
-/// The positive zero of x^3 + p x - q, q > 0, of largest size, by Halley's steps.
-template <class T>
-T outer_zero(T p, T q) {
-  using std::fabs;
-  // A step cubes what is left, and f, which is stationary there, squares that.
-  constexpr double enough = unit_roundoff_of < T >> 0x1p-60 ? 0x1p-10 : 0x1p-18;
-  T x = near_outer_zero(p, q);
-  for (int i = 0; i < 100; ++i) {
-    const T g = (x * x + p) * x - q, slope = T(3) * x * x + p;
-    const T step = g * slope / (slope * slope - T(3) * x * g);
-    x = x - step;
-    if (fabs(step) <= T(enough) * x) break;
-  }
-  return x;
-}
-
 /// Where the quartic f's line is stationary, between low and high, ascending: zeros of u^3 + p u + q. The two others
 /// follow from the outermost.
 template <class T>
@@ -171,61 +76,95 @@ CriticalPoints<T> critical_points(const TorusLine<T>& l) {
   const auto add = [&](T u) {
     if (u > l.low && u < l.high) found.u[found.count++] = u;
   };
-  const T x = fabs(q) > T(0) ? outer_zero(p, fabs(q)) : sqrt(greatest(-p, T(0)));
-  const T outer = q > T(0) ? -x : x, rest = T(-3) * x * x - T(4) * p;
+  const bool is_even = !(fabs(q) > T(0x1p-150));  // what is less moves no zero by more than 2^-50
+  const T x = is_even ? sqrt(greatest(-p, T(0))) : outer_zero(p, fabs(q));
+  const T outer = with_sign_of(x, -q), rest = T(-3) * x * x - T(4) * p;
+  if (!(rest > T(0))) return add(outer), found;
+  const T root = sqrt(rest);
   if (outer < T(0)) add(outer);
-  if (rest > T(0)) {
-    const T root = sqrt(rest);
-    add((-outer - root) / T(2)), add((-outer + root) / T(2));
-  }
+  add((-outer - root) / T(2)), add((-outer + root) / T(2));
   if (!(outer < T(0))) add(outer);
   return found;
 }
 
-/// About a stationary point s the quartic is f(s) + v^2 (A + B v + v^2), A = 6 s^2 + 2 p, B = 4 s: where that is zero.
+/// A stationary point inside and one (or an end) outside: between them is one zero.
 template <class T>
-T first_guess(const TorusLine<T>& l, T p, const Sample<T>& inside, T outside) {
+struct Bracket {
+  const Sample<T>* inside;
+  T outside;
+};
+
+/// About a stationary point s the quartic is f(s) + v^2 (A + B v + v^2), A = 6 s^2 + 2 p, B = 4 s; towards `outside`.
+template <class T>
+struct Rise {
+  T deep, A, B, limit;
+  T v;    // where that is zero, nearly
+  T way;  // 1 or -1
+};
+
+template <class T>
+Rise<T> rise_in(const TorusLine<T>& l, T p, const Bracket<T>& bracket) {
   using std::fabs, std::sqrt;
+  const Sample<T>& inside = *bracket.inside;
   const T sum = inside.rho + l.R, lemon = (sum - l.r) * (sum + l.r) + square(l.foot.z + l.along.z * inside.u);
-  const T deep = l.R >= l.r ? -inside.f * lemon : -inside.f;
-  const T s = inside.u, A = T(6) * s * s + T(2) * p, B = outside > s ? T(4) * s : T(-4) * s;
-  const T limit = outside > s ? outside - s : s - outside;
-  T v = T(0.9) * limit;
-  if (A * v * v > deep) v = sqrt(deep / A);
-  for (int i = 0; i < 5; ++i) {  // Halley's, which cube what is left
-    const T g = (A + (B + v) * v) * v * v - deep, slope = (T(2) * A + (T(3) * B + T(4) * v) * v) * v;
-    const T next = v - g * slope / (slope * slope - g * (A + (T(3) * B + T(6) * v) * v));
-    if (!(next > T(0) && next < limit)) break;
-    const bool is_close = fabs(next - v) <= T(0x1p-8) * v;
-    v = next;
-    if (is_close) break;
-  }
-  return outside > s ? s + v : s - v;
+  const T s = inside.u;
+  Rise<T> rise;
+  rise.deep = l.R >= l.r ? -inside.f * lemon : -inside.f;
+  rise.way = with_sign_of(T(1), bracket.outside - s);
+  rise.A = T(6) * s * s + T(2) * p, rise.B = T(4) * s * rise.way;
+  rise.limit = fabs(bracket.outside - s);
+  rise.v = least(T(0.9) * rise.limit, sqrt(rise.deep / rise.A));  // A may be too small
+  return rise;
 }
 
-/// The zero between a stationary point inside and one (or an end) outside: Newton's steps, halving where they leave
-/// the bracket, until what a step leaves is less than f's error.
+/// A step of Halley's, which cubes what is left.
 template <class T>
-Sample<T> zero_between(const TorusLine<T>& l, T p, const Sample<T>& inside, T outside) {
-  using std::fabs;
-  T negative = inside.u, positive = outside;
-  Sample<T> s = sample(l, first_guess(l, p, inside, outside));
+T closer(const Rise<T>& r) {
+  const T v = r.v, g = (r.A + (r.B + v) * v) * v * v - r.deep;
+  const T slope = (T(2) * r.A + (T(3) * r.B + T(4) * v) * v) * v;
+  const T next = v - g * slope / (slope * slope - g * (r.A + (T(3) * r.B + T(6) * v) * v));
+  return select(next > T(0) && next < r.limit, next, v);
+}
+
+/// Near the zeros in the brackets. A step is a division that waits for the one before, so all zeros take it together.
+template <class T>
+void guess_zeros(const TorusLine<T>& l, T p, std::span<const Bracket<T>> brackets, T* guesses) {
+  const int steps = l.R >= l.r ? 2 : 3;  // of a spindle torus' f the last digits are dearer
+  Rise<T> rises[4];
+  for (std::size_t i = 0; i < brackets.size(); ++i) rises[i] = rise_in(l, p, brackets[i]);
+  for (int step = 0; step < steps; ++step)
+    for (std::size_t i = 0; i < brackets.size(); ++i) rises[i].v = closer(rises[i]);
+  for (std::size_t i = 0; i < brackets.size(); ++i)
+    guesses[i] = brackets[i].inside->u + rises[i].way * rises[i].v;
+}
+
+/// The zero in the bracket: Newton's steps, halving where they leave the bracket, until what a step leaves is less than
+/// f's error.
+template <class T>
+Sample<T> zero_in(const TorusLine<T>& l, const Bracket<T>& bracket, T guess) {
+  T negative = bracket.inside->u, positive = bracket.outside;
+  Sample<T> s = sample(l, guess);
   for (int i = 0; i < 200; ++i) {
-    (s.f < T(0) ? negative : positive) = s.u;
     const T step = s.f * s.rho / s.rho_slope, newton = s.u - step;
-    const bool within = newton > least(negative, positive) && newton < greatest(negative, positive);
-    const T next = within ? newton : (negative + positive) / T(2);
-    if (next == s.u) break;
-    if (within && s.bend * step * step <= s.error * s.rho) {
-      s.u = next, s.f = s.error;
+    const auto is_between = [&] {
+      return newton > least(negative, positive) && newton < greatest(negative, positive);
+    };
+    if (s.bend * step * step <= s.error * s.rho && is_between()) {
+      s.u = newton, s.f = s.error;
       break;
     }
+    (s.f < T(0) ? negative : positive) = s.u;
+    const T next = is_between() ? newton : (negative + positive) / T(2);
+    if (next == s.u) break;
     s = sample(l, next);
   }
   return s;
 }
 
-Bounded<double> rounded(const Bounded<double>& b) { return b; }
+Crossing crossing_within(double t, double error) { return {t, error}; }
+Crossing crossing_within(const DoubleDouble& t, const DoubleDouble& error) {
+  return crossing_at(rounded(bounded(t, error)));
+}
 
 template <class T>
 Crossing crossing_of(const TorusLine<T>& l, T u, T u_error) {
@@ -233,7 +172,7 @@ Crossing crossing_of(const TorusLine<T>& l, T u, T u_error) {
   constexpr double roundoff = unit_roundoff_of<T>;
   const T t = l.t_of_foot + u * l.t_per_u;
   const T error = l.t_error + (u_error + fabs(u) * l.spread) * l.t_per_u + T(2 * roundoff) * fabs(t);
-  return crossing_at(rounded(bounded(t, error)));
+  return crossing_within(t, error);
 }
 
 /// How far a stationary point within its error of zero can be from a crossing: sqrt(2 error / |f''|), at most
@@ -245,6 +184,14 @@ T tangent_reach(const TorusLine<T>& l, const Sample<T>& at, T limit) {
   const Sample<T> before = sample(l, at.u - step), behind = sample(l, at.u + step);
   const T bend = fabs(behind.rho_slope / behind.rho - before.rho_slope / before.rho) / (T(2) * step);
   return bend > T(0) ? least(T(2) * sqrt(at.error / bend), limit) : limit;
+}
+
+/// The zero with what it may be off by.
+template <class T>
+Crossing crossing_of(const TorusLine<T>& l, const Sample<T>& zero, T limit) {
+  using std::fabs;
+  const T slope = fabs(zero.rho_slope), off = T(2) * (fabs(zero.f) + zero.error) * zero.rho;
+  return crossing_of(l, zero.u, off < limit * slope ? off / slope : limit);
 }
 
 /// All crossings of the line beyond u = start, where it is inside or not, into `found`, ascending.
@@ -259,28 +206,34 @@ void add_crossings(const TorusLine<T>& l, T start, bool starts_inside, Crossings
     if (critical.u[i] > start) knots[n++] = sample(l, critical.u[i]);
   knots[n++] = {l.high, T(1), T(0), T(0), T(0), T(0)};
 
-  Sample<T> last = knots[0];
+  Bracket<T> brackets[4];
+  T limits[4], guesses[4];
+  std::size_t count = 0;
+  int places[4];  // of the zeros among the crossings
+  const Sample<T>* last = &knots[0];
   for (int i = 1; i < n; ++i) {
     const Sample<T>& knot = knots[i];
-    const bool was_inside = last.f < T(0), is_inside = knot.f < T(0);
+    const bool was_inside = last->f < T(0), is_inside = knot.f < T(0);
     if (i + 1 < n && knot.is_uncertain()) {
       found.wants_digits = true;
       if (was_inside == (knots[i + 1].f < T(0))) {
-        const T limit = least(knot.u - last.u, knots[i + 1].u - knot.u);
+        const T limit = least(knot.u - last->u, knots[i + 1].u - knot.u);
         const Crossing tangent = crossing_of(l, knot.u, tangent_reach(l, knot, limit));
         found.add(tangent), found.add(tangent);
         continue;
       }
     }
     if (was_inside != is_inside) {
-      const T p = critical.p;
-      const Sample<T> s = was_inside ? zero_between(l, p, last, knot.u) : zero_between(l, p, knot, last.u);
-      const T limit = fabs(knot.u - last.u), slope = fabs(s.rho_slope);
-      const T off = T(2) * (fabs(s.f) + s.error) * s.rho;
-      found.add(crossing_of(l, s.u, off < limit * slope ? off / slope : limit));
+      brackets[count] = was_inside ? Bracket<T>{last, knot.u} : Bracket<T>{&knot, last->u};
+      limits[count] = fabs(knot.u - last->u), places[count++] = found.count;
+      found.add({});
     }
-    last = knot;
+    last = &knot;
   }
+  guess_zeros<T>(l, critical.p, {brackets, count}, guesses);
+  for (std::size_t i = 0; i < count; ++i)
+    found.at[static_cast<std::size_t>(places[i])] =
+        crossing_of(l, zero_in(l, brackets[i], guesses[i]), limits[i]);
 }
 
 }  // namespace

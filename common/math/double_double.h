@@ -67,6 +67,9 @@ inline DoubleDouble sqrt(const DoubleDouble& a) {
   const DoubleDouble rest = a - two_product(root, root);
   return fast_two_sum(root, rest.hi / (2 * root));
 }
+inline DoubleDouble with_sign_of(const DoubleDouble& size, const DoubleDouble& sign) {
+  return std::signbit(sign.hi) ? -size : size;
+}
 inline DoubleDouble select(bool condition, const DoubleDouble& yes, const DoubleDouble& no) {
   return condition ? yes : no;
 }

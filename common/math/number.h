@@ -19,6 +19,7 @@ template <class T>
 constexpr double unit_roundoff_of = std::numeric_limits<T>::epsilon() / 2;
 
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
+inline double with_sign_of(double size, double sign) { return std::copysign(size, sign); }  // size >= 0
 inline bool none(bool condition) { return !condition; }
 inline double least(double a, double b) { return b < a ? b : a; }
 inline double greatest(double a, double b) { return a < b ? b : a; }
