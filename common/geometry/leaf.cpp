@@ -71,9 +71,6 @@ BoundedAffine operator*(const BoundedAffine& a, const BoundedAffine& b) {
 
 namespace {
 
-using PreciseVec = Vec3<DoubleDouble>;
-
-PreciseVec precise(const Vec3d& v) { return {{v.x}, {v.y}, {v.z}}; }
 Vec3d absolute(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
 /// The offset that takes the local origin's place in world space to 0, for the rounded rows that they are: then what
@@ -207,23 +204,6 @@ std::uint64_t twin_hash(const Leaf& leaf) {
   return hash;
 }
 
-LocalRay<DoubleDouble> to_local_precisely(const Leaf& leaf, const RayQuery& q) {
-  LocalRay<DoubleDouble> local;
-  const PreciseVec o = precise(q.ray.origin), d = precise(q.ray.direction);
-  for (int i = 0; i < 3; ++i) {
-    const PreciseVec row = precise(leaf.row[i]);
-    local.origin[i] = dot(row, o) + DoubleDouble{leaf.offset[i], leaf.precise.offset_rest[i]};
-    local.direction[i] = dot(row, d);
-  }
-  const Leaf::Precise& of = leaf.precise;
-  local.origin_error = {of.error_per_size * q.origin_size + of.origin_error +
-                        leaf.stretch * q.ray.origin_error};
-  local.direction_error = {of.error_per_size * q.direction_size};
-  local.spread = {(of.spread_per_size + 0x1p-1000) * q.direction_size};  // a quotient must not overflow
-  local.aside = precise(leaf.aside), local.share = precise(leaf.share);
-  return local;
-}
-
 namespace {
 
 /// A range along a world axis, with the transform's error for local points of that size.
@@ -270,67 +250,6 @@ Box moved(const Box& box, const BoundedAffine& by) {
   return result;
 }
 
-Interval<double> settled_interval(const Leaf& leaf, const RayQuery& q) {
-  const LocalRay<DoubleDouble> ray = to_local_precisely(leaf, q);
-  return std::visit(
-      [&]<class S>(const S& solid) {
-        if constexpr (ConvexSolid<S>)
-          return rounded(interval_of(solid, ray));
-        else
-          return Interval<double>{};
-      },
-      leaf.solid);
-}
-
-Crossings crossings(const Leaf& leaf, const RayQuery& q) {
-  const LocalRay<double> ray = to_local(leaf, q);
-  return std::visit(
-      [&]<class S>(const S& solid) {
-        if constexpr (ConvexSolid<S>) {
-          const Interval<double> interval = interval_of(solid, ray);
-          return ahead(interval.is_in_doubt() ? settled_interval(leaf, q) : interval);
-        } else {
-          const Crossings found = crossings_of(solid, ray);
-          return found.wants_digits ? crossings_of(solid, to_local_precisely(leaf, q)) : found;
-        }
-      },
-      leaf.solid);
-}
-
-namespace {
-
-/// A convex solid is left for good outward; inward there is one crossing, on the far side.
-template <ConvexSolid S>
-Crossings crossings_from_surface(const S& solid, const LocalRay<double>& ray, bool inward) {
-  Crossings found;
-  if (!inward) return found;
-  found.starts_inside = true;
-  const Bounded<double> exit = exit_from_surface(solid, ray);
-  // Grazing inward, the exit can round to the origin or behind it.
-  if (exit.t < infinity) found.add(crossing_at(exit.t > 0 ? exit : bounded(0.0, 0.0)));
-  return found;
-}
-
-}  // namespace
-
-Crossings crossings_from_surface(const Leaf& leaf, const LocalRay<double>& ray, bool inward) {
-  return std::visit([&](const auto& solid) { return crossings_from_surface(solid, ray, inward); },
-                    leaf.solid);
-}
-
-SurfacePoint surface_at(const Leaf& leaf, const LocalRay<double>& ray, double t, bool entering) {
-  return std::visit([&](const auto& solid) { return surface_of(solid, ray, t, entering); }, leaf.solid);
-}
-
-TextureCoordinates texture_at(const Leaf& leaf, const SurfacePoint& s) {
-  return std::visit([&](const auto& solid) { return texture_of(solid, s); }, leaf.solid);
-}
-
-FacetPoint facet_at(const Leaf& leaf, const LocalRay<double>& ray, const FacetCrossing& crossing) {
-  const Mesh* mesh = std::get_if<Mesh>(&leaf.solid);
-  return point_at(*leaf.facets, ray, crossing, mesh && mesh->smooth);
-}
-
 Placement make_placement(const BoundedAffine& m) {
   // The point is within a few ulp of the surface in local space; then the map's error and its rounding.
   return {m.map, magnitude(m.map.linear) * gamma_bound(8) + m.linear_error,
@@ -348,10 +267,6 @@ WorldPoint to_world(const Placement& placement, const FacetPoint& local) {
   const glm::dmat3 size = magnitude(placement.map.linear) + placement.error_per_size;
   found.error += local.error * greatest(row_sum(size, 0), greatest(row_sum(size, 1), row_sum(size, 2)));
   return found;
-}
-
-Vec3d normal_to_world(const Leaf& leaf, const Vec3d& n) {
-  return normalized(leaf.row[0] * n.x + leaf.row[1] * n.y + leaf.row[2] * n.z);
 }
 
 }  // namespace rayfarm
