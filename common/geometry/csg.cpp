@@ -143,17 +143,36 @@ class Window {
   double early_hi_ = -infinity, lo_ = infinity, hi_ = -infinity, late_lo_ = infinity;
 };
 
+/// Of a leaf that is there more than once in an object: what is known of it, which is nothing before the first.
+CsgWorkspace::Seen* seen_of(const CsgItem& item, CsgWorkspace& ws) {
+  if (item.first_twin == no_leaf) return nullptr;
+  if (ws.seen.size() <= item.first_twin) ws.seen.resize(item.first_twin + 1);
+  return &ws.seen[item.first_twin];
+}
+
+void gather_leaf(std::span<const CsgItem> items, std::uint32_t item, std::span<const Leaf> leaves,
+                 const RayQuery& q, CsgWorkspace::Seen* seen, CsgWorkspace& ws) {
+  const Leaf& leaf = leaves[items[item].leaf];
+  if (!seen || leaf.facets) return gather_leaf(items, item, leaves, q, ws);
+  if (!seen->crossings) seen->crossings = crossings_ahead(leaf, q);
+  put_crossings(items, item, *seen->crossings, ws);
+}
+
 /// What gather() finds within a window, at a glance where that can do, in no order.
 void gather_in(Window& window, std::span<const CsgItem> items, std::span<const Leaf> leaves,
                const RayQuery& q, double t_max, CsgWorkspace& ws) {
   ws.counts.assign(items.size(), 0);
   ws.events.clear();
+  ++ws.gathering;
   visit_leaves(items, q, t_max, ws, [&](std::uint32_t item) {
-    const Glance g = glance_ahead(leaves[items[item].leaf], q);
+    CsgWorkspace::Seen* const seen = seen_of(items[item], ws);
+    const bool is_known = seen && seen->gathering == ws.gathering;
+    const Glance g = is_known ? seen->glance : glance_ahead(leaves[items[item].leaf], q);
+    if (seen && !is_known) seen->gathering = ws.gathering, seen->glance = g, seen->crossings.reset();
     if (g.verdict == Glance::Verdict::misses) return;
     if (g.verdict == Glance::Verdict::unsure) {
       const std::size_t first = ws.events.size();
-      gather_leaf(items, item, leaves, q, ws);
+      gather_leaf(items, item, leaves, q, seen, ws);
       window.put_again(items, ws, first);
       return;
     }

@@ -8,6 +8,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct CsgItem {
   std::uint32_t children = 0;
   CsgOp op = CsgOp::unite;
   std::int32_t weight = 1;  // what it adds to its parent's count when inside; 2 for what is subtracted
+  // Of a leaf that is there more than once: the first item of the same surface.
+  std::uint32_t first_twin = no_leaf;
 };
 
 /// Where the ray passes the surface of an object (or of the whole scene).
@@ -52,6 +55,15 @@ struct CsgWorkspace {
   std::vector<std::int32_t> counts_before;  // before a boundary that several leaves make
   std::vector<Event> events;
   FacetPath path;
+
+  /// What the ray meets of a leaf that is there more than once, looked at once.
+  struct Seen {
+    std::uint64_t gathering = 0;  // which one it was seen in
+    Glance glance;
+    std::optional<Crossings> crossings;
+  };
+  std::vector<Seen> seen;  // per item, as far as needed
+  std::uint64_t gathering = 0;
 };
 
 /// What it takes to find out what rays meet.

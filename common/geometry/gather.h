@@ -30,19 +30,24 @@ void gather_facets(std::span<const CsgItem> items, std::uint32_t item, const Lea
   for (const FacetCrossing& c : ws.path.crossings) ws.events.push_back({c.t, c.error, item, c.part});
 }
 
-/// The crossings of a leaf into the events.
+/// A leaf's crossings into the events.
+inline void put_crossings(std::span<const CsgItem> items, std::uint32_t item, const Crossings& found,
+                          CsgWorkspace& ws) {
+  if (found.starts_inside) toggle(items, ws.counts, item);
+  for (int k = 0; k < found.count; ++k) {
+    const Crossing& at = found.at[static_cast<std::size_t>(k)];
+    ws.events.push_back({at.t, at.error, item, no_part});
+  }
+}
+
 template <class Workspace>
 void gather_leaf(std::span<const CsgItem> items, std::uint32_t item, std::span<const Leaf> leaves,
                  const RayQuery& q, Workspace& ws) {
   const Leaf& leaf = leaves[items[item].leaf];
   if (leaf.facets) return gather_facets(items, item, leaf, q, ws);
-  const Crossings c = crossings_ahead(leaf, q);
-  if constexpr (Workspace::counts_tests) ws.leaf_tested(c);
-  if (c.starts_inside) toggle(items, ws.counts, item);
-  for (int k = 0; k < c.count; ++k) {
-    const Crossing& at = c.at[static_cast<std::size_t>(k)];
-    ws.events.push_back({at.t, at.error, item, no_part});
-  }
+  const Crossings found = crossings_ahead(leaf, q);
+  if constexpr (Workspace::counts_tests) ws.leaf_tested(found);
+  put_crossings(items, item, found, ws);
 }
 
 /// Their order along the ray.

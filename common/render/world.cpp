@@ -67,6 +67,7 @@ class Builder {
     const auto first = static_cast<std::uint32_t>(parts_.items.size());
     const std::uint32_t next = add_item(number, above, first, 0).next;
     cut(first);
+    find_twins(first);
     parts_.objects.push_back({first, static_cast<std::uint32_t>(parts_.items.size()) - first});
     return next;
   }
@@ -152,6 +153,17 @@ class Builder {
       Box& box = parts_.items[i].box;
       box = overlap(box, parts_.items[first + parts_.items[i].parent].box);
       if (box.is_empty()) box = nowhere();
+    }
+  }
+
+  /// Which of an object's items are the same surface.
+  void find_twins(std::uint32_t first) {
+    std::unordered_map<std::uint32_t, std::uint32_t> first_of;  // by surface
+    for (std::uint32_t i = first; i < parts_.items.size(); ++i) {
+      CsgItem& item = parts_.items[i];
+      if (item.leaf == no_leaf) continue;
+      const auto [known, is_first] = first_of.emplace(parts_.leaves[item.leaf].surface, i - first);
+      if (!is_first) item.first_twin = parts_.items[first + known->second].first_twin = known->second;
     }
   }
 

@@ -2,6 +2,7 @@
 // vanish.
 #include <gtest/gtest.h>
 
+#include "common/render/hit.h"
 #include "common/render/world_parts.h"
 #include "tests/common/geometry/rays.h"
 #include "tests/support/random_scene.h"
@@ -83,27 +84,77 @@ TEST(Csg, ARayIsInsideAnObjectWhereItsPointsAre) {
   EXPECT_GT(checked, 5'000);
 }
 
+/// What an object's first boundary is at a glance, and closely.
+class TwoLooks {
+ public:
+  explicit TwoLooks(const World& world) : world_(world.parts()) {}
+
+  void expect_same(const WorldObject& object, const RayQuery& q) {
+    const auto items = world_.items_of(object);
+    Boundary first;
+    std::size_t next = 0;
+    const ObjectStart start = start_at_a_glance(items, world_.leaves, q, infinity, glancing_);
+    ASSERT_EQ(start.inside, gather(items, world_.leaves, q, infinity, close_));
+    ASSERT_EQ(start.has_boundary, next_boundary(items, close_, next, first));
+    if (!start.has_boundary) return;
+    ASSERT_EQ(start.first.t, first.t);
+    ASSERT_EQ(start.first.leaf, first.leaf);
+    ASSERT_EQ(start.first.entering, first.entering);
+    ASSERT_GE(start.first.t + start.first.error, first.t + first.error);
+  }
+
+ private:
+  const World::Parts& world_;
+  CsgWorkspace close_, glancing_;
+};
+
 TEST(Csg, AGlanceFindsTheSameFirstBoundaryAsACloseLook) {
   RandomRays random(13);
   for (Scene (*make)(std::uint64_t) : {random_scene, random_snapped_scene})
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const World world(make(seed));
-      CsgWorkspace close, glancing;
-      for (const WorldObject& object : world.parts().objects) {
-        const auto items = world.parts().items_of(object);
+      TwoLooks looks(world);
+      for (const WorldObject& object : world.parts().objects)
         for (int i = 0; i < 50; ++i) {
-          const RayQuery q(random.towards_box(8, 2));
-          Boundary first;
-          std::size_t next = 0;
-          const ObjectStart start = start_at_a_glance(items, world.parts().leaves, q, infinity, glancing);
-          ASSERT_EQ(start.inside, gather(items, world.parts().leaves, q, infinity, close));
-          ASSERT_EQ(start.has_boundary, next_boundary(items, close, next, first));
-          if (!start.has_boundary) continue;
-          ASSERT_EQ(start.first.t, first.t) << seed;
-          ASSERT_EQ(start.first.leaf, first.leaf) << seed;
-          ASSERT_EQ(start.first.entering, first.entering) << seed;
-          ASSERT_GE(start.first.t + start.first.error, first.t + first.error) << seed;
+          looks.expect_same(object, RayQuery(random.towards_box(8, 2)));
+          if (HasFatalFailure()) FAIL() << "scene " << seed;
         }
+    }
+}
+
+/// What lies in some of the solids, but not in an odd number of them.
+Scene doubled(const std::vector<Node>& solids) {
+  Scene scene;
+  const auto count = static_cast<std::uint32_t>(solids.size());
+  scene.nodes = {inner(CsgOp::subtract, 2)};
+  for (const CsgOp op : {CsgOp::unite, CsgOp::exclusive_or}) {
+    scene.nodes.push_back(inner(op, count));
+    scene.nodes.insert(scene.nodes.end(), solids.begin(), solids.end());
+  }
+  return scene;
+}
+
+// Also rays that start on a surface, in a plane of several caps.
+TEST(Csg, ASolidThatStandsInAnObjectTwiceIsSeenTheSameAtAGlance) {
+  RandomRays random(14);
+  for (const Solid& solid : all_solids())
+    for (int scene_number = 0; scene_number < 10; ++scene_number) {
+      const Affine turn = rotation_deg(glm::dvec3{1, 0.3, 0.2}, random.uniform(-180, 180));
+      std::vector<Node> row;
+      for (int i = 0; i < 4; ++i) row.push_back(leaf(solid, turn * translation({0.6 * i - 1, 0, 0})));
+      const World world(doubled(row));
+      TwoLooks looks(world);
+      WorldWorkspace ws;
+      const WorldObject& object = world.parts().objects.at(0);
+      for (int i = 0; i < 300; ++i) {
+        const RayQuery q(random.towards_box(8, 2));
+        looks.expect_same(object, q);
+        const std::optional<Boundary> met = first_boundary(world.parts(), q, ws);
+        if (!met) continue;
+        const Hit hit = hit_at(world.parts(), q, *met);
+        const Vec3d direction = random.direction();
+        looks.expect_same(object, RayQuery(ray_from(hit, direction, dot(direction, hit.normal) > 0)));
+        if (HasFatalFailure()) FAIL() << kind_of(solid);
       }
     }
 }
