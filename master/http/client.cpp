@@ -162,6 +162,9 @@ HttpReply send(const HttpRequest& request) {
   try {
     if (failure) std::rethrow_exception(failure);
   } catch (const boost::system::system_error& error) {
+    if (error.code() == http::error::end_of_stream && !peer.is_encrypted)
+      throw MasterUnreachable("who is at " + request.url +
+                              " answers nothing: a master that encrypts wants https://");
     throw MasterUnreachable("no master answers at " + request.url + " (" + error.code().message() + ")");
   }
   return std::move(*reply);

@@ -61,7 +61,7 @@ class MemoryShare {
   const std::uint64_t bytes_;
 };
 
-/// Connections that wait for a request, the one that has waited longest first.
+/// Connections that nobody would miss, most of which wait for a request; the one that has waited longest first.
 using IdleConnections = std::list<HttpStream*>;
 
 class IdleTime {
@@ -228,6 +228,8 @@ asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::fla
     return denial(asker, *needed);
   };
   if (!refused) refused = denied();
+  std::optional<IdleTime> yielding;  // who is nobody makes room for others until the answer is theirs
+  if (!asker) yielding.emplace(idle, stream);
   const std::uint64_t limit = body_limit(request);
   const std::uint64_t expected = refused ? 0 : expected_body(parser, limit);
   if (!refused && expected > limit) refused = complaint(http::error::body_limit, limit);

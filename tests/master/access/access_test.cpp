@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <future>
+
 #include "tests/support/scratch_folder.h"
 
 namespace rayfarm {
@@ -153,6 +155,21 @@ TEST_F(TheAccess, KnowsPeopleByTheirTokensAndBrowsersByTheSessionsOfTheirLinks) 
     EXPECT_THROW(access.check_person(elsewhere, "10.0.0.7", now), AccessRefused) << "another farm's";
   const Issued another = access.issue({.kind = CredentialKind::login_link, .role = Role::viewer}, now);
   EXPECT_NO_THROW(access.log_in(text_of(another.token), "10.0.0.7", now)) << "none of these was a guess";
+}
+
+TEST_F(TheAccess, MayBeAskedByManyAtOnce) {
+  const auto come_and_go = [&] {
+    for (int i = 0; i < 5; ++i) {
+      const Issued made = access.issue({.kind = CredentialKind::token, .role = Role::viewer}, now);
+      EXPECT_EQ(access.check_person(text_of(made.token), "10.0.0.7", now).role, Role::viewer);
+      EXPECT_EQ(access.revoke(made.credential.id).size(), 1u);
+      EXPECT_THROW(access.check_person(text_of(made.token), "10.0.0.7", now), AccessRefused);
+    }
+  };
+  std::vector<std::future<void>> people;
+  for (int i = 0; i < 4; ++i) people.push_back(std::async(std::launch::async, come_and_go));
+  for (auto& person : people) person.get();
+  EXPECT_EQ(access.list().size(), 1u + 4 * 5) << "and admin.token";
 }
 
 TEST_F(TheAccess, KeepsNoSecretOnTheDisk) {

@@ -133,6 +133,12 @@ TEST_F(People, SpeakNoPlaintextWithAClosedMaster) {
   RawPeer peer(server.port());
   peer.send("GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
   EXPECT_EQ(peer.rest(), "");
+  try {
+    status_of("http" + server.url().substr(5), "GET", "/api/v1/jobs", "");
+    ADD_FAILURE();
+  } catch (const MasterUnreachable& error) {
+    EXPECT_NE(std::string(error.what()).find("wants https://"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(People, ComeInWithALoginLinkOnce) {
@@ -210,6 +216,19 @@ TEST_F(People, WhoseTokenIsRevokedWhileTheyAreStillSendingChangeNothing) {
   peer.send("}");
   EXPECT_TRUE(peer.rest().starts_with("HTTP/1.1 401"));
   EXPECT_EQ(access.list().size(), before);
+}
+
+TEST_F(People, WhoAreNobodyMakeRoomWhileTheirLoginIsStillComing) {
+  HttpSettings few = settings(Exposure::loopback_only);
+  few.connections = 2;
+  const TestServer server(door_to(farm), few, master(), &access);
+  RawPeer first(server.port()), second(server.port());
+  for (RawPeer* slow : {&first, &second})
+    slow->send(
+        "POST /api/v1/login HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
+        "Content-Length: 100\r\n\r\n{");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(status_of(server.url(), "GET", "/api/v1/tokens", ""), 200u);
+  EXPECT_EQ(first.rest(), "") << "the longest there has gone";
 }
 
 TEST_F(People, WhoWatchAreCutOffAtOnceWhenTheirTokenIsRevoked) {
