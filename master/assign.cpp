@@ -10,14 +10,6 @@ namespace {
 
 constexpr std::size_t most_victims = 5;  // workers that one tile may cost
 
-std::uint64_t samples_in(const Work& work, const RenderSettings& settings) {
-  const Tile tile = tile_at(size_of(settings), work.tile);
-  std::uint64_t pixels = 0;
-  for (int pass = 0; pass < pass_count; ++pass)
-    if (work.passes & 1u << pass) pixels += pixel_count(tile, pass);
-  return pixels * settings.spp;
-}
-
 }  // namespace
 
 void Farm::State::update_queue(const Job& job) {
@@ -39,7 +31,8 @@ bool Farm::State::give_one(Worker& worker, FarmTime now) {
   if (job == nullptr || !has_room_for(worker, job->id)) return false;
   const std::uint32_t place = *job->open.begin();
   JobFrame& frame = job->frames[place];
-  if (!frame.canvas && !start(*job, frame, now)) return true;  // it failed; ask for the next
+  const bool can_start = frame.canvas ? read_film(*job, frame) : start(*job, frame, now);
+  if (!can_start) return true;  // it failed, or waits now; ask for the next
 
   Schedule& schedule = frame.canvas->schedule;
   const std::optional<Work> work =
@@ -49,7 +42,8 @@ bool Farm::State::give_one(Worker& worker, FarmTime now) {
     update_queue(*job);
   }
   introduce(worker, *job, frame);
-  const Lease lease{job->id, frame.number, work.value(), samples_in(*work, job->spec.settings), now};
+  const Lease lease{job->id, frame.number, work.value(),
+                    pixels_in(*work, job->spec.settings) * job->spec.settings.spp, now};
   assign(worker, LeaseId{++last_lease}, lease);
   // The coming frame's scene travels while this one is rendered.
   if (place + 1 < job->frames.size() && !job->frames[place + 1].ended)
@@ -82,7 +76,8 @@ bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
     return false;
   }
   frame.started = now;
-  ++revision;
+  touch(job);
+  record(FrameStarted{{job.id, frame.number}, now});
   if (job.started) return true;
   job.state = JobState::running;
   job.started = now;
@@ -97,7 +92,7 @@ void Farm::State::end_lease(Worker& worker, LeaseId id) {
   frame_at(job, lease.frame).canvas->schedule.give_back(lease.work);
   job.open.insert(job.spec.frames->index_of(lease.frame).value());
   ++job.tiles_given_back;
-  ++revision;
+  touch(job);
   update_queue(job);
 }
 
@@ -153,7 +148,7 @@ void Farm::State::end(Job& job, JobState state, FarmTime now) {
   for (auto& [id, worker] : workers) worker.jobs.erase(job.id);
   drop_unneeded_assets();
   if (state != JobState::done) job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
-  ++revision;
+  touch(job);
   update_queue(job);
   ended_jobs.push_back(job.id);
   drop_old_jobs();

@@ -25,6 +25,8 @@ std::string words_for_banned(std::string_view name) {
 }  // namespace
 
 Farm::Farm(FarmLimits limits) : state_(std::make_unique<State>()) { state_->limits = limits; }
+Farm::Farm(Farm&&) noexcept = default;
+Farm& Farm::operator=(Farm&&) noexcept = default;
 Farm::~Farm() = default;
 
 // Workers. ----------------------------------------------------------------------------------
@@ -73,6 +75,7 @@ bool Farm::drain(std::string_view name, FarmTime now) {
   if (worker->is_drained) return true;
   worker->is_drained = true;
   state_->drained_names.insert(worker->info.name);
+  state_->record(WorkerDrained{worker->info.name, true});
   std::vector<LeaseId> leases = state_->end_leases(*worker);
   state_->tell("worker " + worker->info.name + " drained; " + count_of_tiles(leases.size()) + " given back",
                worker->info.name);
@@ -86,6 +89,7 @@ bool Farm::undrain(std::string_view name, FarmTime now) {
   const auto drained = state_->drained_names.find(name);
   if (drained == state_->drained_names.end()) return worker != nullptr;
   state_->tell("worker " + *drained + " no longer drained", *drained);
+  state_->record(WorkerDrained{*drained, false});
   state_->drained_names.erase(drained);
   if (worker == nullptr) return true;
   worker->is_drained = false;
@@ -98,7 +102,10 @@ bool Farm::ban(std::string_view name, FarmTime now) {
   const auto was_here = state_->name_ids.find(std::string(name));
   if (was_here == state_->name_ids.end() || (worker && worker->info.kind == WorkerKind::local)) return false;
   const bool is_new = state_->banned_names.insert(was_here->first).second;
-  if (is_new) state_->tell("worker " + was_here->first + " banned", was_here->first);
+  if (is_new) {
+    state_->tell("worker " + was_here->first + " banned", was_here->first);
+    state_->record(WorkerBanned{was_here->first, true});
+  }
   if (!worker) return true;
   state_->end_leases(*worker);
   worker->is_stopping = true;
@@ -111,6 +118,7 @@ bool Farm::unban(std::string_view name, FarmTime) {
   const auto banned = state_->banned_names.find(name);
   if (banned == state_->banned_names.end()) return state_->worker_named(name) != nullptr;
   state_->tell("worker " + *banned + " no longer banned", *banned);
+  state_->record(WorkerBanned{*banned, false});
   state_->banned_names.erase(banned);
   return true;
 }
@@ -162,6 +170,7 @@ JobId Farm::submit(JobSpec spec, FarmTime now) {
                std::to_string(settings.spp) + " spp, priority " + std::to_string(job.spec.priority) +
                (job.spec.hold ? ", on hold" : ""));
   const JobId id = job.id;
+  state_->changed_jobs.insert(id);
   state_->update_queue(state_->jobs[id] = std::move(job));
   state_->fill_all(now);
   return id;
@@ -191,15 +200,12 @@ bool Farm::add_frame(FrameId id, std::string scene_hash, SharedBytes scene, Farm
   return true;
 }
 
-bool Farm::pause(JobId id, FarmTime now) {
+bool Farm::pause(JobId id, FarmTime now, std::string why) {
   Job* job = state_->living_job(id);
   if (job == nullptr) return false;
   if (job->state == JobState::paused) return true;
-  job->state = JobState::paused;
-  ++state_->revision;
-  state_->tell(title_of(*job) + " paused");
   state_->revoke_everywhere(id);
-  state_->update_queue(*job);
+  state_->pause(*job, std::move(why));
   state_->fill_all(now);
   return true;
 }
@@ -210,7 +216,8 @@ bool Farm::resume(JobId id, FarmTime now) {
   if (job->state != JobState::paused) return true;
   job->state = job->started ? JobState::running : JobState::waiting;
   if (job->started) job->pace.restart(now, job->pixels_done);
-  ++state_->revision;
+  job->message.clear();
+  state_->touch(*job);
   state_->tell(title_of(*job) + " resumed");
   state_->update_queue(*job);
   state_->fill_all(now);
@@ -241,11 +248,21 @@ bool Farm::set_priority(JobId id, int priority, FarmTime) {
   if (job == nullptr) return false;
   state_->queue.erase({-job->spec.priority, id});
   job->spec.priority = priority;
-  ++state_->revision;
+  state_->touch(*job);
   state_->update_queue(*job);
   return true;
 }
 
 std::vector<FarmEvent> Farm::take_events() { return std::exchange(state_->events, {}); }
+
+std::vector<FarmRecord> Farm::take_records() {
+  for (const JobId id : std::exchange(state_->changed_jobs, {}))
+    if (const auto found = state_->jobs.find(id); found != state_->jobs.end()) {
+      const Job& job = found->second;
+      state_->record(JobChanged{id, job.state, job.spec.priority, job.message, job.spec.key,
+                                job.tiles_given_back, job.ended});
+    }
+  return std::exchange(state_->records, {});
+}
 
 }  // namespace rayfarm

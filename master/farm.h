@@ -1,6 +1,7 @@
 // The farm: jobs, workers, leases. It decides who renders what, without I/O: no socket, no clock, no file.
 // Time is passed in; messages leave through the function that a worker was added with; what an admin should
-// know comes out of take_events(). All calls are made from one thread.
+// know comes out of take_events(), and what changed out of take_records(): from these the same farm can be built again.
+// All calls are made from one thread.
 //
 // A job has one frame, or those of an animation, whose scenes come one after the other.
 //
@@ -160,12 +161,21 @@ struct FarmFull : SettingsError {
   using SettingsError::SettingsError;
 };
 
+struct FarmPast;    // farm_record.h
+struct FarmRecord;  // the same
+
 class Farm {
  public:
   /// Must not call the farm.
   using Send = std::function<void(ToWorker)>;
 
   explicit Farm(FarmLimits limits = {});
+  /// The farm that these records came from (farm_record.h). All that was leased waits; no worker is here. A film's pixels
+  /// are read when they are first needed. Those that are damaged, or gone, are rendered again once their job, which is
+  /// paused and says so, is resumed.
+  Farm(FarmLimits limits, FarmPast past, FarmTime now);
+  Farm(Farm&&) noexcept;
+  Farm& operator=(Farm&&) noexcept;
   ~Farm();
 
   /// Sends Welcome with the worker's name (made unique: the second "pc" is "pc-2"; a name is free again when
@@ -189,7 +199,7 @@ class Farm {
   bool add_frame(FrameId id, std::string scene_hash, SharedBytes scene, FarmTime now,
                  std::vector<AssetData> assets = {});
   // These answer false when there is no such job, or it has ended. Pausing and cancelling revoke at once.
-  bool pause(JobId job, FarmTime now);
+  bool pause(JobId job, FarmTime now, std::string why = {});  // for people; until it is resumed
   bool resume(JobId job, FarmTime now);
   bool cancel(JobId job, FarmTime now);
   bool fail(JobId job, std::string why, FarmTime now);  // what it still needs will not come
@@ -229,6 +239,8 @@ class Farm {
 
   /// What happened since the last call.
   std::vector<FarmEvent> take_events();
+  /// What changed since the last call. They hold the pixels of commits: to be taken often, also when nobody keeps them.
+  std::vector<FarmRecord> take_records();
 
  private:
   struct State;

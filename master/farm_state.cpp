@@ -42,6 +42,7 @@ NameId Farm::State::id_of_name(const std::string& name) {
   const NameId id{static_cast<std::uint32_t>(names.size())};
   names.push_back(name);
   name_ids[name] = id;
+  record(WorkerNamed{name});
   return id;
 }
 
@@ -76,6 +77,8 @@ void Farm::State::add_frame(Job& job, JobFrame frame) {
   take_in_data(frame);
   const auto place = static_cast<std::uint32_t>(job.frames.size());
   frame.number = job.spec.frames->at(place);
+  if (place == 0) record(JobAdded{job.id, job.spec, job.submitted});
+  record(FrameAdded{{job.id, frame.number}, frame.scene_hash, frame.scene_bytes, frame.assets});
   job.frames.push_back(std::move(frame));
   job.open.insert(place);
 }
@@ -83,13 +86,16 @@ void Farm::State::add_frame(Job& job, JobFrame frame) {
 void Farm::State::end(Job& job, JobFrame& frame, FarmTime now) {
   frame.ended = now;
   for (auto& [id, worker] : workers) forget(worker, {job.id, frame.number});
-  const bool is_done = frame.canvas && frame.canvas->film->is_complete();
+  const bool is_done = is_complete(job, frame);
   if (is_done)
     for_each_data(frame, [&](const std::string& hash, const SharedBytes& bytes) {
       if (shared.at(hash).kept++ == 0) bytes_kept += bytes->size();
     });
   release_unfinished(frame);
-  if (!is_done) drop_data(frame);
+  if (!is_done) {
+    drop_data(frame);
+    record(SceneDropped{{job.id, frame.number}});
+  }
   if (!frame.canvas) return;
   bytes_kept += film_bytes(frame);
   ended_frames.push_back({job.id, frame.number});
@@ -105,18 +111,24 @@ void Farm::State::drop_unneeded_assets() {
   for (auto& [id, worker] : workers) forget_assets(worker, needed);
 }
 
-void Farm::State::drop_picture(Job& job, JobFrame& frame) {
+void Farm::State::unkeep(JobFrame& frame) {
   bytes_kept -= film_bytes(frame);
-  frame.canvas.reset();
   for_each_data(frame, [&](const std::string& hash, const SharedBytes& bytes) {
     const auto data = shared.find(hash);
     if (--data->second.kept > 0) return;
     bytes_kept -= bytes->size();
     if (data->second.unfinished == 0) shared.erase(data);
   });
+}
+
+void Farm::State::drop_picture(Job& job, JobFrame& frame) {
+  unkeep(frame);
+  frame.canvas.reset();
   drop_data(frame);
   ++job.frames_dropped;
   ++revision;
+  record(PictureDropped{
+      {job.id, frame.number}, frame.pixels_done, frame.counters, frame.thread_time, frame.ended});
 }
 
 void Farm::State::drop_old_jobs() {
@@ -125,6 +137,7 @@ void Farm::State::drop_old_jobs() {
     for (JobFrame& frame : oldest->second.frames)
       if (frame.canvas) drop_picture(oldest->second, frame);
     job_by_key.erase(oldest->second.spec.key);
+    record(JobDropped{oldest->first});
     jobs.erase(oldest);
   }
 }
@@ -138,6 +151,7 @@ void Farm::State::drop_old_films() {
     if (!frame.canvas) continue;
     drop_picture(job->second, frame);
     job_by_key.erase(std::exchange(job->second.spec.key, {}));
+    touch(job->second);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "master/farm.h"
+#include "master/farm_record.h"
 #include "master/job.h"
 #include "master/worker.h"
 
@@ -39,12 +40,22 @@ struct Farm::State {
   std::uint64_t last_job = 0, last_worker = 0, last_lease = 0;
   std::uint64_t revision = 0;
   std::vector<FarmEvent> events;
+  std::vector<FarmRecord> records;  // those of changed_jobs are still to come
+  std::set<JobId> changed_jobs;
+  decltype(FarmPast::read_pixels) read_pixels;  // of films that are not there yet
 
   void tell(std::string text, std::string worker = "") {
     events.push_back({false, std::move(text), std::move(worker)});
   }
   void warn(std::string text, std::string worker = "") {
     events.push_back({true, std::move(text), std::move(worker)});
+  }
+
+  void record(auto fact) { records.push_back({std::move(fact)}); }
+  /// After a change of what JobChanged tells.
+  void touch(const Job& job) {
+    ++revision;
+    changed_jobs.insert(job.id);
   }
 
   Job* living_job(JobId id);
@@ -81,7 +92,7 @@ struct Farm::State {
   void blame(const Lease& oldest, NameId lost, FarmTime now);
 
   // Results.
-  void deliver(Worker& worker, const Lease& lease, const Result& result, FarmTime now);
+  void deliver(Worker& worker, const Lease& lease, Result result, FarmTime now);
   void finish(Job& job, JobFrame& frame, FarmTime now);
   void compare_late(Worker& worker, const Result& result);
   void refuse(Worker& worker, Job& job, const std::string& reason, FarmTime now);
@@ -96,6 +107,26 @@ struct Farm::State {
   void drop_old_jobs();
   void drop_old_films();
   void drop_picture(Job& job, JobFrame& frame);
+  void pause(Job& job, std::string why);
+
+  // A farm built again.
+  void restore(FarmRecord record);
+  /// After the last record: what follows from them.
+  void settle(FarmTime now);
+  void settle(Job& job);
+  /// Its film, scene and assets, with what all take.
+  void count_data(JobFrame& frame);
+
+  // Pixels that are read when they are needed.
+  /// The frame, if it has a film, with its pixels; null also when they cannot be read.
+  const JobFrame* picture(JobId id, std::optional<std::uint32_t> number);
+  /// False: they cannot be read now; a job that goes on is paused.
+  bool read_film(Job& job, JobFrame& frame);
+  /// Those that are not in the film are to be rendered again.
+  void lose_unread(Job& job, JobFrame& frame, const RayCounters& counters);
+  /// It was done, and is no longer.
+  void reopen(Job& job, JobFrame& frame);
+  void unkeep(JobFrame& frame);
 };
 
 }  // namespace rayfarm

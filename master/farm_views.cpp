@@ -63,13 +63,13 @@ std::optional<FrameView> Farm::frame(JobId id, std::optional<std::uint32_t> fram
 }
 
 std::shared_ptr<const Film> Farm::film(JobId id, std::optional<std::uint32_t> number) const {
-  const JobFrame* frame = state_->frame(id, number);
-  return frame && frame->canvas ? frame->canvas->film : nullptr;
+  const JobFrame* frame = state_->picture(id, number);
+  return frame ? frame->canvas->film : nullptr;
 }
 
 std::optional<Deliveries> Farm::deliveries(JobId id, std::optional<std::uint32_t> number) const {
-  const JobFrame* frame = state_->frame(id, number);
-  if (!frame || !frame->canvas) return std::nullopt;
+  const JobFrame* frame = state_->picture(id, number);
+  if (!frame) return std::nullopt;
   const Canvas& canvas = *frame->canvas;
   Deliveries all;
   all.tiles.reserve(canvas.deliveries.size());

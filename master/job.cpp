@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "master/farm_record.h"
+
 namespace rayfarm {
 
 namespace {
@@ -82,11 +84,11 @@ std::string message_of(const Job& job) {
   return job.message.empty() ? lost : job.message + "; " + lost;
 }
 
-bool is_done(const Job& job, const JobFrame& frame) {
+}  // namespace
+
+bool is_complete(const Job& job, const JobFrame& frame) {
   return frame.pixels_done == pixels_of(job.spec.settings);
 }
-
-}  // namespace
 
 JobView view_of(const Job& job, FarmTime now) {
   const JobSpec& spec = job.spec;
@@ -123,7 +125,7 @@ FrameView view_of(const Job& job, std::uint32_t place, FarmTime now) {
 
   const JobFrame& frame = job.frames[place];
   if (frame.canvas) view.state = job.state;
-  if (is_done(job, frame)) view.state = JobState::done;
+  if (is_complete(job, frame)) view.state = JobState::done;
   view.scene_hash = frame.scene_hash;
   view.is_kept = frame.canvas.has_value();
   view.pixels_done = frame.pixels_done;
@@ -169,6 +171,22 @@ void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
   frame.pixels_done = canvas.film->pixels_done();
   canvas.schedule.finish(delivery.work);
   job.pace.advance(now, job.pixels_done);
+}
+
+void lose(const Job& job, JobFrame& frame, const PassesLost& damage) {
+  for (const Work& work : damage.lost) {
+    frame.canvas->schedule.undo(work);
+    frame.pixels_done -= pixels_in(work, job.spec.settings);
+  }
+  frame.counters = frame.counters - damage.counters;
+}
+
+std::uint64_t pixels_in(const Work& work, const RenderSettings& settings) {
+  const Tile tile = tile_at(size_of(settings), work.tile);
+  std::uint64_t pixels = 0;
+  for (int pass = 0; pass < pass_count; ++pass)
+    if (work.passes & 1u << pass) pixels += pixel_count(tile, pass);
+  return pixels;
 }
 
 std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile,

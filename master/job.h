@@ -15,6 +15,8 @@
 
 namespace rayfarm {
 
+struct PassesLost;
+
 /// A worker's name by its number in the farm's list: whom a pass came from, also when the worker is gone.
 enum class NameId : std::uint32_t {};
 
@@ -30,6 +32,8 @@ struct Canvas {
   };
 
   std::shared_ptr<Film> film;
+  bool is_unread =
+      false;  // of the film only its size is there; the pixels that the schedule says are done can be read
   Schedule schedule;
   std::vector<TileDeliveries> deliveries;               // by tile
   std::vector<NameId> deliverers;                       // in the order of their first deliveries
@@ -82,6 +86,8 @@ Size size_of(const RenderSettings& settings);
 /// What its film takes, once all pixels are there.
 std::uint64_t film_bytes(const JobFrame& frame);
 bool has_ended(const Job& job);
+/// All of its pixels were committed; its film may be gone.
+bool is_complete(const Job& job, const JobFrame& frame);
 /// May be worked on, and some of it is waiting.
 bool wants_workers(const Job& job);
 /// The first frame when none is named; null when its scene has not come, or there is none.
@@ -109,6 +115,10 @@ struct Delivery {
 };
 /// Takes it into the frame's film.
 void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now);
+/// They are to be rendered again; the sums over the job's frames stay to be made.
+void lose(const Job& job, JobFrame& frame, const PassesLost& damage);
+/// The pixels that one work brings.
+std::uint64_t pixels_in(const Work& work, const RenderSettings& settings);
 /// Who delivered other pixels than these, if anybody did. Passes not there yet are not compared.
 std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile,
                                    const std::vector<PassImage>& images);

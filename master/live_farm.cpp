@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "master/farm_record.h"
+
 namespace rayfarm {
 
 FarmTime LiveFarm::now() { return std::chrono::steady_clock::now().time_since_epoch(); }
@@ -13,6 +15,7 @@ void LiveFarm::note(FarmEvent event) {
 
 LiveFarm::LogAtEnd::~LogAtEnd() {
   for (FarmEvent& event : live.farm_.take_events()) live.note(std::move(event));
+  live.farm_.take_records();  // nobody keeps them
 }
 
 }  // namespace rayfarm

@@ -27,6 +27,12 @@ PassSet passes_in(const std::vector<PassImage>& images) {
   return passes;
 }
 
+RayCounters counters_of(const std::vector<PassImage>& images) {
+  RayCounters sum;
+  for (const PassImage& image : images) sum += image.counters;
+  return sum;
+}
+
 std::string seconds(FarmTime time) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f s", std::chrono::duration<double>(time).count());
@@ -45,20 +51,28 @@ void Farm::receive(WorkerId id, Result result, FarmTime now) {
     tell_off(result, *fault);
   }
   take_lease(worker, result.lease);
-  state_->deliver(worker, lease, result, now);
+  state_->deliver(worker, lease, std::move(result), now);
   state_->fill(worker, now);
 }
 
-void Farm::State::deliver(Worker& worker, const Lease& lease, const Result& result, FarmTime now) {
+void Farm::State::deliver(Worker& worker, const Lease& lease, Result result, FarmTime now) {
   Job& job = jobs.at(lease.job);
   JobFrame& frame = frame_at(job, lease.frame);
   const FarmTime taken = believed_time(lease, result.seconds, now);
   commit(job, frame, {lease.work, result.images, worker.name, taken}, now);
+  record(TileCommitted{{job.id, frame.number},
+                       lease.work.tile,
+                       lease.work.passes,
+                       names[static_cast<std::size_t>(worker.name)],
+                       taken,
+                       now,
+                       counters_of(result.images),
+                       std::move(result.images)});
   learn_speed(worker, lease, taken);
   ++worker.tiles;
   worker.pixels += lease.samples / job.spec.settings.spp;
   ++revision;
-  if (frame.canvas->film->is_complete()) finish(job, frame, now);
+  if (is_complete(job, frame)) finish(job, frame, now);
 }
 
 void Farm::State::finish(Job& job, JobFrame& frame, FarmTime now) {
@@ -81,6 +95,7 @@ void Farm::State::compare_late(Worker& worker, const Result& result) {
   if (!frame) tell_off(result, "there never was such a frame");
   if (!frame->canvas && frame->ended) return;  // nor here
   if (!frame->canvas) tell_off(result, "nothing of that frame was given");
+  if (frame->canvas->is_unread) return;  // not worth the reading
   const Size film = size_of(job.spec.settings);
   if (result.tile >= tile_count(film)) tell_off(result, "the picture has no such tile");
   if (const auto fault = fault_of(result.images, film, {result.tile, passes_in(result.images)}))
@@ -118,7 +133,7 @@ void Farm::receive(WorkerId id, GiveBack given, FarmTime now) {
 void Farm::State::refuse(Worker& worker, Job& job, const std::string& reason, FarmTime now) {
   worker.jobs.at(job.id).is_refused = true;
   job.message = "worker " + worker.info.name + ": " + reason;
-  ++revision;
+  touch(job);
   revoke(worker, job.id);
   const bool somebody_can = std::ranges::any_of(
       workers, [&](const auto& w) { return !w.second.is_stopping && !refuses(w.second, job.id); });

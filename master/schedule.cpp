@@ -61,6 +61,19 @@ void Schedule::give_back(const Work& work) {
     if (work.passes & bit(pass)) given_back_[pass].insert(rank_[work.tile]);
 }
 
+void Schedule::set_done(const Work& work) {
+  assert((waiting_[work.tile] & work.passes) == work.passes);
+  waiting_[work.tile] &= ~work.passes;
+  waiting_count_ -= std::popcount(work.passes);
+  done_[work.tile] |= work.passes;
+}
+
+void Schedule::undo(const Work& work) {
+  assert((done_[work.tile] & work.passes) == work.passes);
+  done_[work.tile] &= ~work.passes;
+  give_back(work);
+}
+
 void Schedule::finish(const Work& work) {
   assert((leased(work.tile) & work.passes) == work.passes);
   done_[work.tile] |= work.passes;

@@ -35,6 +35,11 @@ class Schedule {
   void give_back(const Work& work);
   void finish(const Work& work);
 
+  /// Passes that are waiting were done before.
+  void set_done(const Work& work);
+  /// Passes that are done wait again.
+  void undo(const Work& work);
+
   bool has_waiting() const { return waiting_count_ != 0; }
   PassSet waiting(std::uint32_t tile) const { return waiting_[tile]; }
   PassSet done(std::uint32_t tile) const { return done_[tile]; }

@@ -1,15 +1,17 @@
 // The farm under chance: workers join, leave, lie, answer late and twice; jobs are paused, resumed,
-// cancelled, reordered, their frames come late. After every step the book kept by hand must agree with the rules; in the end with the
+// cancelled, reordered, their frames come late; the farm ends and is built again from what it recorded. After every step the book kept by hand must agree with the rules; in the end with the
 // pictures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 #include <tuple>
 
 #include "tests/master/farm/fake_worker.h"
+#include "tests/master/farm/rebuilt_farm.h"
 
 namespace rayfarm {
 namespace {
@@ -31,13 +33,13 @@ class Chaos {
 
   /// Everything that is still wanted gets done, by one new worker who just works.
   void finish() {
-    for (const auto& [id, size] : sizes_) farm_.resume(id, now_);
+    for (const auto& [id, size] : sizes_) farm_->resume(id, now_);
     while (!to_come_.empty()) send_a_frame();
     while (!workers_.empty()) stop(0);
-    FakeWorker last(farm_, {.name = "last", .threads = 4}, now_);
+    FakeWorker last(*farm_, {.name = "last", .threads = 4}, now_);
     last.finish_all(now_);
     for (const auto& [id, size] : sizes_) {
-      const JobView job = farm_.job(id, now_).value();
+      const JobView job = farm_->job(id, now_).value();
       if (cancelled_.contains(id)) {
         EXPECT_EQ(job.state, JobState::cancelled);
         continue;
@@ -45,8 +47,8 @@ class Chaos {
       if (job.state == JobState::failed) continue;  // over it too many workers were lost
       ASSERT_EQ(job.state, JobState::done);
       RayCounters sum;
-      for (const FrameView& frame : farm_.frames(id, now_)) {
-        EXPECT_EQ(farm_.film(id, frame.frame)->rgb(), made_up_picture(id, size, frame.frame));
+      for (const FrameView& frame : farm_->frames(id, now_)) {
+        EXPECT_EQ(farm_->film(id, frame.frame)->rgb(), made_up_picture(id, size, frame.frame));
         EXPECT_EQ(frame.counters, made_up_counters(size)) << "a pass was committed twice, or not at all";
         sum += frame.counters;
       }
@@ -58,6 +60,7 @@ class Chaos {
   std::size_t chance(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
 
   void step() {
+    if (chance(100) == 0) return build_again();
     switch (chance(24)) {
       case 0:
         return join();
@@ -89,33 +92,41 @@ class Chaos {
     if (workers_.size() >= 8) return;
     const auto kind = chance(3) == 0 ? WorkerKind::local : WorkerKind::remote;
     const auto threads = static_cast<std::uint32_t>(1 + chance(4));
-    workers_.emplace_back(farm_, WorkerInfo{.name = "pc", .threads = threads, .kind = kind}, now_);
+    workers_.emplace_back(*farm_, WorkerInfo{.name = "pc", .threads = threads, .kind = kind}, now_);
   }
 
   void leave(std::size_t who) {
     remember(workers_[who]);
-    farm_.remove_worker(workers_[who].id(), "gone", now_);
+    farm_->remove_worker(workers_[who].id(), "gone", now_);
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(who));
   }
 
   void stop(std::size_t who) {
     remember(workers_[who]);
-    farm_.receive(workers_[who].id(), GiveBack{}, now_);
+    farm_->receive(workers_[who].id(), GiveBack{}, now_);
     leave(who);
+  }
+
+  void build_again() {
+    std::ranges::move(farm_->take_records(), std::back_inserter(records_));
+    expect_same(*farm_, Farm({}, past_of(records_), now_), now_);
+    farm_ = std::make_unique<Farm>(FarmLimits{}, past_of(records_), now_);
+    workers_.clear(), once_held_.clear(), refused_.clear();
+    join();
   }
 
   void send_a_frame() {
     if (to_come_.empty()) return;
     const auto next = std::next(to_come_.begin(), static_cast<std::ptrdiff_t>(chance(to_come_.size())));
     const auto [job, frames] = *next;
-    const bool goes_on = add_frame(farm_, job, frames.front(), now_);
+    const bool goes_on = add_frame(*farm_, job, frames.front(), now_);
     ASSERT_EQ(goes_on, !has_ended(job));
     next->second.erase(next->second.begin());
     if (!goes_on || next->second.empty()) to_come_.erase(next);
   }
 
   bool has_ended(JobId job) {
-    const JobState state = farm_.job(job, now_)->state;
+    const JobState state = farm_->job(job, now_)->state;
     return state == JobState::cancelled || state == JobState::failed;
   }
 
@@ -128,7 +139,7 @@ class Chaos {
     const auto frames = static_cast<std::uint32_t>(1 + chance(4)),
                step = static_cast<std::uint32_t>(1 + chance(3));
     spec.frames = FrameRange{0, (frames - 1) * step, step};
-    const JobId id = farm_.submit(spec, now_);
+    const JobId id = farm_->submit(spec, now_);
     sizes_[id] = size;
     for (std::uint32_t i = 1; i < frames; ++i) to_come_[id].push_back(spec.frames->at(i));
   }
@@ -139,19 +150,19 @@ class Chaos {
     for (const FakeWorker& worker : workers_) remember(worker);
     switch (chance(8)) {
       case 0:
-        if (farm_.cancel(job, now_)) cancelled_.insert(job);
+        if (farm_->cancel(job, now_)) cancelled_.insert(job);
         return;
       case 1:
       case 2:
-        farm_.pause(job, now_);
+        farm_->pause(job, now_);
         return;
       case 3:
       case 4:
       case 5:
-        farm_.resume(job, now_);
+        farm_->resume(job, now_);
         return;
       default:
-        farm_.set_priority(job, static_cast<int>(chance(5)), now_);
+        farm_->set_priority(job, static_cast<int>(chance(5)), now_);
         return;
     }
   }
@@ -161,9 +172,9 @@ class Chaos {
     const FakeWorker& worker = workers_[chance(workers_.size())];
     remember(worker);
     if (chance(3) == 0)
-      farm_.drain(worker.name(), now_);
+      farm_->drain(worker.name(), now_);
     else
-      farm_.undrain(worker.name(), now_);
+      farm_->undrain(worker.name(), now_);
   }
 
   /// A result for a lease that was once somebody's: revoked, already answered, or still held by another.
@@ -172,7 +183,7 @@ class Chaos {
     const Assignment& old = once_held_[chance(once_held_.size())];
     const FakeWorker& worker = workers_[chance(workers_.size())];
     if (std::ranges::count(worker.held(), old.lease, &Assignment::lease) != 0) return;
-    farm_.receive(worker.id(), rendered(old, sizes_.at(old.job)), now_);
+    farm_->receive(worker.id(), rendered(old, sizes_.at(old.job)), now_);
   }
 
   void lie() {
@@ -190,7 +201,7 @@ class Chaos {
         result.images[0].rgb.pop_back();
         break;
     }
-    EXPECT_THROW(farm_.receive(workers_[who].id(), result, now_), WorkerError);
+    EXPECT_THROW(farm_->receive(workers_[who].id(), result, now_), WorkerError);
     workers_[who].drop(result.lease);
     leave(who);
   }
@@ -202,11 +213,11 @@ class Chaos {
     const Assignment given = worker.held()[chance(worker.held().size())];
     const bool is_refusal = chance(2) == 0;
     // A job that everybody refuses fails, by right; here somebody always can.
-    if (is_refusal && farm_.job(given.job, now_)->pixels_done == 0) return;
+    if (is_refusal && farm_->job(given.job, now_)->pixels_done == 0) return;
     remember(worker);
     worker.drop(given.lease);
     if (is_refusal) refused_.insert({worker.id(), given.job});
-    farm_.receive(worker.id(), GiveBack{{given.lease}, is_refusal ? "out of memory" : ""}, now_);
+    farm_->receive(worker.id(), GiveBack{{given.lease}, is_refusal ? "out of memory" : ""}, now_);
     if (!is_refusal) leave(who);
   }
 
@@ -233,7 +244,7 @@ class Chaos {
   void check_leases() {
     std::set<std::tuple<JobId, std::uint32_t, std::uint32_t, int>> leased;
     std::map<JobId, std::uint64_t> pixels_leased;
-    const std::vector<WorkerView> views = farm_.workers();
+    const std::vector<WorkerView> views = farm_->workers();
     ASSERT_EQ(views.size(), workers_.size());
     for (std::size_t i = 0; i < workers_.size(); ++i) {
       ASSERT_EQ(views[i].id, workers_[i].id());
@@ -245,11 +256,11 @@ class Chaos {
         for (int pass = 0; pass < pass_count; ++pass) {
           if (!(a.passes & 1u << pass)) continue;
           ASSERT_TRUE(leased.insert({a.job, a.frame, a.tile, pass}).second) << "leased twice";
-          ASSERT_FALSE(farm_.film(a.job, a.frame)->passes_of(a.tile) & 1u << pass) << "leased though done";
+          ASSERT_FALSE(farm_->film(a.job, a.frame)->passes_of(a.tile) & 1u << pass) << "leased though done";
           pixels_leased[a.job] += pixel_count(tile_at(sizes_.at(a.job), a.tile), pass);
         }
     }
-    for (const JobView& job : farm_.jobs(now_)) {
+    for (const JobView& job : farm_->jobs(now_)) {
       const bool is_open = job.state == JobState::running || job.state == JobState::waiting;
       ASSERT_TRUE(pixels_leased[job.id] == 0 || is_open) << "leased though not running";
       const std::uint64_t pixels_sent = job.pixels_total / job.frames.count() * job.frames_sent;
@@ -259,12 +270,13 @@ class Chaos {
         ASSERT_TRUE(worker.leases > 0 || !may_work) << "idle though something waits";
       }
     }
-    for (const FarmEvent& event : farm_.take_events())
+    for (const FarmEvent& event : farm_->take_events())
       ASSERT_EQ(event.text.find("differ"), std::string::npos) << event.text;
   }
 
   std::mt19937 random_;
-  Farm farm_;
+  std::unique_ptr<Farm> farm_ = std::make_unique<Farm>();
+  std::vector<FarmRecord> records_;  // of all its lives
   FarmTime now_{};
   std::vector<FakeWorker> workers_;
   std::map<JobId, Size> sizes_;

@@ -1,6 +1,7 @@
 // What the farm keeps of jobs that have ended, so that a master can run for ever.
 #include <gtest/gtest.h>
 
+#include "master/farm_record.h"
 #include "tests/master/farm/fake_worker.h"
 
 namespace rayfarm {
@@ -134,6 +135,7 @@ TEST(EndedJobs, KeepTheirScenesWhenTheyAreDoneAsLongAsTheirFilms) {
   worker.take_messages();
   EXPECT_EQ(farm.film(job), nullptr);
   EXPECT_EQ(farm.scene(job), nullptr);
+  farm.take_records();  // they hold it, too
   EXPECT_TRUE(scene.bytes.expired());
 }
 
@@ -148,6 +150,7 @@ TEST(EndedJobs, DropTheirScenesWhenTheyAreNotDone) {
   EXPECT_EQ(farm.job(second, 0s)->state, JobState::failed);
   worker.take_messages();
   for (const JobId job : {first, second}) EXPECT_EQ(farm.scene(job), nullptr);
+  farm.take_records();  // they hold them, too
   EXPECT_TRUE(cancelled.bytes.expired());
   EXPECT_TRUE(failed.bytes.expired());
 }
@@ -165,6 +168,7 @@ TEST(UnfinishedJobs, ShareTheBytesOfTheirScene) {
   const JobSpec first = job_of(one_tile), second = job_of(one_tile);
   farm.submit(first, 0s);
   farm.submit(second, 0s);
+  farm.take_records();  // they share them, too
   EXPECT_EQ(first.scene_bytes.use_count(), 3);
   EXPECT_EQ(second.scene_bytes.use_count(), 1);
 }
