@@ -109,7 +109,7 @@ TEST_F(Encryption, AnswersPlaintextFromANetworkWithNothing) {
     start_master({"--threads", "0", "--state", folder / "farm", "--http", here + ":0"}, here + ":0");
     const std::string plain = "http" + http().substr(5);
     EXPECT_NE(run_program({"rayfarm", "jobs"}, {{"RAYFARM_MASTER", plain}}).exit_code, 0);
-    start_worker_with("stranger", {"--master", farm_address(), "--insecure"});
+    start_worker_with("stranger", {"--master", farm_address(), "--insecure", "--state", folder / "stranger"});
     wait_for_log("it does not encrypt what it says");
     kill_all();
     int asked = 0;
@@ -128,7 +128,7 @@ TEST_F(Encryption, IsMissedByThisCaptureWhereThereIsNone) {
   run_in_own_network([&] {
     PacketCapture capture;
     start_master({"--threads", "0", "--insecure", "--http", here + ":0"}, here + ":0");
-    start_worker_with("lab7", {"--master", farm_address(), "--insecure"});
+    start_worker_with("lab7", {"--master", farm_address(), "--insecure", "--state", folder / "lab7"});
     wait_for_log("worker lab7 joined");
     EXPECT_EQ(rayfarm({"jobs"}).exit_code, 0);
     kill_all();
