@@ -115,22 +115,34 @@ void Farm::State::revoke_everywhere(JobId job) {
   for (auto& [id, worker] : workers) revoke(worker, job);
 }
 
-void Farm::State::blame(const Lease& oldest, NameId lost, FarmTime now) {
+void Farm::State::blame(const Lease& oldest, NameId lost, std::uint64_t process, FarmTime now) {
   Job& job = jobs.at(oldest.job);
   JobFrame& frame = frame_at(job, oldest.frame);
   const bool is_first = frame.pixels_done == 0;
-  std::set<NameId>& victims =
+  Canvas::Victims& victims =
       is_first ? frame.canvas->lost_at_first : frame.canvas->lost_over[oldest.work.tile];
-  victims.insert(lost);
+  victims[lost] = process;
   if (victims.size() < most_victims) return;
   std::string who;
-  for (const NameId name : victims) who += (who.empty() ? "" : ", ") + names[static_cast<std::size_t>(name)];
+  for (const auto& [name, its_process] : victims)
+    who += (who.empty() ? "" : ", ") + names[static_cast<std::size_t>(name)];
   revoke_everywhere(job.id);
   fail(job,
        "workers are lost again and again over " +
            (is_first ? "" : "tile " + std::to_string(oldest.work.tile) + " of ") + title_of(job, frame) +
            " (" + who + "); do they have too little memory for it?",
        now);
+}
+
+void Farm::State::exonerate(std::uint64_t process) {
+  if (process == 0) return;
+  const auto is_it = [process](const auto& victim) { return victim.second == process; };
+  for (auto& [id, job] : jobs)
+    for (JobFrame& frame : job.frames) {
+      if (!frame.canvas) continue;
+      std::erase_if(frame.canvas->lost_at_first, is_it);
+      for (auto& [tile, victims] : frame.canvas->lost_over) std::erase_if(victims, is_it);
+    }
 }
 
 void Farm::State::fail(Job& job, std::string why, FarmTime now) {

@@ -34,6 +34,7 @@ Farm::~Farm() = default;
 WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   const WorkerId id{++state_->last_worker};
   info.name = state_->unique_name(info.name);
+  state_->exonerate(info.process);
   std::string joined = "worker " + info.name + " joined";
   if (!info.address.empty()) joined += " from " + info.address;
   joined += " with " + std::to_string(info.threads) + (info.threads == 1 ? " thread" : " threads");
@@ -64,8 +65,9 @@ void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
     state_->warn("worker " + worker.info.name + " lost" + what, worker.info.name);
   if (worker.is_stopping) oldest.reset();
   const NameId name = worker.name;
+  const std::uint64_t process = worker.info.process;
   state_->workers.erase(id);
-  if (oldest) state_->blame(*oldest, name, now);
+  if (oldest) state_->blame(*oldest, name, process, now);
   state_->fill_all(now);
 }
 

@@ -49,6 +49,7 @@ struct WorkerInfo {
   std::string name{}, address{}, cpu{}, version{};
   std::uint32_t threads = 1;
   WorkerKind kind = WorkerKind::remote;
+  std::uint64_t process = 0;  // the same when it comes back without having ended; 0: not known
 };
 
 enum class JobState : std::uint8_t { waiting, running, paused, done, cancelled, failed };

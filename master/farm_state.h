@@ -89,7 +89,9 @@ struct Farm::State {
   void revoke_everywhere(JobId job);
 
   /// A worker that was lost may have died of the lease that it held longest.
-  void blame(const Lease& oldest, NameId lost, FarmTime now);
+  void blame(const Lease& oldest, NameId lost, std::uint64_t process, FarmTime now);
+  /// What was lost with that process was not lost for the sake of its work: it is still alive.
+  void exonerate(std::uint64_t process);
 
   // Results.
   void deliver(Worker& worker, const Lease& lease, Result result, FarmTime now);

@@ -35,10 +35,12 @@ struct Canvas {
   bool is_unread =
       false;  // of the film only its size is there; the pixels that the schedule says are done can be read
   Schedule schedule;
-  std::vector<TileDeliveries> deliveries;               // by tile
-  std::vector<NameId> deliverers;                       // in the order of their first deliveries
-  std::set<NameId> lost_at_first;                       // workers, before any pixel was there
-  std::map<std::uint32_t, std::set<NameId>> lost_over;  // later, by the tile that they held longest
+  std::vector<TileDeliveries> deliveries;  // by tile
+  std::vector<NameId> deliverers;          // in the order of their first deliveries
+  /// Workers that were lost and have not come back alive, with their WorkerInfo::process.
+  using Victims = std::map<NameId, std::uint64_t>;
+  Victims lost_at_first;                       // before any pixel was there
+  std::map<std::uint32_t, Victims> lost_over;  // later, by the tile that they held longest
 };
 
 /// Whose scene has come.

@@ -299,8 +299,8 @@ void Sessions::admit(Session& session, const Hello& hello) {
   const std::string& name = session.dialled ? session.dialled->target.name : hello.name;
   const auto objection = farm_.apply([&](Farm& farm, FarmTime) { return farm.objection_to(name); });
   if (objection) return refuse(session, *objection);
-  const WorkerInfo info{name,          session.connection.peer(), hello.cpu, hello.software,
-                        hello.threads, WorkerKind::remote};
+  const WorkerInfo info{name,          session.connection.peer(), hello.cpu,    hello.software,
+                        hello.threads, WorkerKind::remote,        hello.process};
   const Versions versions = *common_versions(hello.versions, {});
   const auto send = [&session, this, versions](ToWorker message) {
     if (const auto* refused = std::get_if<Refused>(&message)) return refuse(session, refused->reason);

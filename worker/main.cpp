@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <iostream>
+#include <random>
 #include <thread>
 
 #include "common/daemon/command_line.h"
@@ -113,7 +114,9 @@ WorkerOptions options_of(const Arguments& arguments) {
   const std::optional<Pairing> pairing = read_pairing(arguments.state);
   WorkerOptions options;
   options.way = way_of(arguments, pairing);
-  options.identity = {arguments.name, cpu_name(), arguments.threads};
+  std::random_device chance;
+  options.identity = {arguments.name, cpu_name(), arguments.threads,
+                      std::uint64_t{chance()} << 32 | chance()};
   options.security = security_of(arguments, pairing);
   check(options.identity);
   return options;

@@ -20,7 +20,13 @@ void log_start(const FrameStart& start) {
 }
 
 Hello hello_of(const WorkerIdentity& identity) {
-  return {{}, RAYFARM_VERSION, identity.name, identity.cpu, identity.threads, engine_fingerprint()};
+  return {{},
+          RAYFARM_VERSION,
+          identity.name,
+          identity.cpu,
+          identity.threads,
+          engine_fingerprint(),
+          identity.process};
 }
 
 }  // namespace

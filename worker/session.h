@@ -13,6 +13,7 @@ namespace rayfarm {
 struct WorkerIdentity {
   std::string name, cpu;
   std::uint32_t threads = 1;
+  std::uint64_t process = 0;  // see Hello
 };
 
 /// Throws std::invalid_argument unless the master can take it.

@@ -64,6 +64,7 @@ void serialize(Archive& archive, Hello& m) {
   archive(m.versions.oldest, m.versions.capabilities);
   check_order(m.versions);
   hash_text(archive, m.engine);
+  archive(m.process);
 }
 template <class Archive>
 void serialize(Archive& archive, Welcome& m) {

@@ -73,6 +73,8 @@ struct Hello {
   std::string cpu;
   std::uint32_t threads = 1;
   std::string engine;  // engine_fingerprint(): SHA-256, hexadecimal
+  std::uint64_t process =
+      0;  // drawn at the program's start: by it a worker is known that has only lost the network
   bool operator==(const Hello&) const = default;
 };
 struct Welcome {

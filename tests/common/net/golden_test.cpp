@@ -29,8 +29,13 @@ const SharedBytes bytes = std::make_shared<const Bytes>(Bytes{1, 2, 3, 250});
 
 /// Text that is longer in bytes than in letters, numbers with all their bytes.
 const std::map<std::string, ToMaster> to_master{
-    {"hello",
-     Hello{{4, 4, 0x0102030405060708}, "1.0.0", "Müllers PC", "Some CPU @ 3 GHz", 8, std::string(64, 'e')}},
+    {"hello", Hello{{4, 4, 0x0102030405060708},
+                    "1.0.0",
+                    "Müllers PC",
+                    "Some CPU @ 3 GHz",
+                    8,
+                    std::string(64, 'e'),
+                    0x1122334455667788}},
     {"result", Result{LeaseId{0x1122334455667788},
                       JobId{7},
                       3,
