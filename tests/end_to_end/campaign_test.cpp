@@ -1,0 +1,83 @@
+// Renders on a farm to which everything happens that can: workers die and hang, and the network between them and the
+// master does to their connections what a bad one does. Each picture has the bytes of an undisturbed one.
+//
+// RAYFARM_CAMPAIGN is how many renders (20), RAYFARM_CAMPAIGN_SEED the first one's seed (1).
+#include <signal.h>
+
+#include <random>
+
+#include "tests/end_to_end/each_scene.h"
+#include "tests/support/fault_proxy.h"
+
+namespace rayfarm {
+namespace {
+
+unsigned number_of(const char* variable, unsigned otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? static_cast<unsigned>(std::stoul(text)) : otherwise;
+}
+
+class Campaign : public FarmPrograms {
+ protected:
+  static constexpr unsigned workers = 3;
+  static std::string name_of(unsigned worker) { return "pc" + std::to_string(worker); }
+
+  /// Something happens to one of the workers, at an instant that nobody waits for.
+  void disturb(const FaultProxy& network, std::mt19937& random) {
+    const auto pause = [&](unsigned most) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % most));
+    };
+    pause(200);
+    const std::string victim = name_of(random() % workers);
+    switch (random() % 3) {
+      case 0:
+        kill_worker(victim);
+        start(victim, network);
+        break;
+      case 1:
+        worker(victim).send_signal(SIGSTOP);
+        pause(2500);  // sometimes so long that it is given up
+        worker(victim).send_signal(SIGCONT);
+        break;
+      default:
+        break;  // the network does enough
+    }
+  }
+  void start(const std::string& name, const FaultProxy& network) {
+    start_worker_with(name, {"--master", network.address(), "--threads", "1"});
+  }
+  const std::string& undisturbed(const Words& picture) {
+    std::string& bytes = undisturbed_[picture];
+    if (bytes.empty()) bytes = rendered_here(picture);
+    return bytes;
+  }
+
+ private:
+  std::map<Words, std::string> undisturbed_;
+};
+
+TEST_F(Campaign, EveryPictureHasTheBytesOfAnUndisturbedOne) {
+  const unsigned renders = number_of("RAYFARM_CAMPAIGN", 20), first = number_of("RAYFARM_CAMPAIGN_SEED", 1);
+  start_master({"--threads", "0"});
+  std::uint64_t given_back = 0;
+  for (unsigned seed = first; seed < first + renders; ++seed) {
+    std::mt19937 random(seed);
+    FaultProxy network(parse_address(farm_address(), 0), seed);
+    for (unsigned i = 0; i < workers; ++i) start(name_of(i), network);
+    const Words picture = five_scenes()[random() % five_scenes().size()].picture;
+    const std::string id = submit(picture);
+    for (int deed = 0; deed < 8 && state_of(id) != "done"; ++deed) disturb(network, random);
+    network.calm();
+    wait_for_state(id, "done");
+    EXPECT_TRUE(fetched(id) == undisturbed(picture)) << "seed " << seed << "\n" << network.story();
+    const std::uint64_t back = job(id).at("tiles_given_back").get<std::uint64_t>();
+    std::printf("seed %u: %zu bytes right, %llu tiles given back\n", seed, undisturbed(picture).size(),
+                static_cast<unsigned long long>(back));
+    given_back += back;
+    for (unsigned i = 0; i < workers; ++i) kill_worker(name_of(i));
+  }
+  EXPECT_GT(given_back, renders) << "too little was disturbed";
+}
+
+}  // namespace
+}  // namespace rayfarm
