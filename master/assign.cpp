@@ -67,7 +67,8 @@ void Farm::State::fill_all(FarmTime now) {
 bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
   const Size size = size_of(job.spec.settings);
   try {
-    frame.canvas.emplace(size);
+    auto film = std::make_shared<Film>(size);
+    frame.canvas.emplace(size).film = std::move(film);
   } catch (const std::bad_alloc&) {
     fail(job,
          "the master has no memory for a picture of " + std::to_string(size.width) + "x" +
@@ -160,6 +161,7 @@ void Farm::State::end(Job& job, JobState state, FarmTime now) {
   for (auto& [id, worker] : workers) worker.jobs.erase(job.id);
   drop_unneeded_assets();
   if (state != JobState::done) job_by_key.erase(std::exchange(job.spec.key, {}));  // it may be tried again
+  job.spec.script = {};
   touch(job);
   update_queue(job);
   ended_jobs.push_back(job.id);

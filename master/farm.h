@@ -67,6 +67,8 @@ struct JobSpec {
   bool hold = false;                 // starts paused
   std::string key;  // submit --id: the same key gives the same job again until that fails; empty: none
   std::map<std::string, std::string> parameters;  // that its script was given, as far as the submitter says
+  std::string
+      script;  // of which its door makes the scenes to come, in the door's own words; empty: others bring them
 };
 
 /// What of ended jobs and of frames that are done is kept; those that ended first go first. A frame that loses its
@@ -235,6 +237,8 @@ class Farm {
   SharedBytes scene(JobId id, std::optional<std::uint32_t> frame = {}) const;
   /// Those of that scene.
   std::vector<AssetData> assets(JobId id, std::optional<std::uint32_t> frame = {}) const;
+  /// As it was submitted; empty once the job has ended.
+  std::string script(JobId id) const;
   /// Grows with every change of a job: to wait for news.
   std::uint64_t revision() const;
 

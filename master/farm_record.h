@@ -90,6 +90,7 @@ struct FarmRecord {
 /// What a farm was: records, and a way to the pixels that it committed.
 struct FarmPast {
   std::vector<FarmRecord> records;
+  std::uint32_t life = 0;  // another one each time: the leases of two lives have different numbers
   /// Calls the function with each commit of the frame whose pixels are sound. Throws when nothing can be read now.
   std::function<void(FrameId, const std::function<void(const TileCommitted&)>&)> read_pixels;
 };

@@ -85,6 +85,11 @@ std::vector<AssetData> Farm::assets(JobId id, std::optional<std::uint32_t> numbe
   return frame ? frame->assets : std::vector<AssetData>{};
 }
 
+std::string Farm::script(JobId id) const {
+  const auto job = state_->jobs.find(id);
+  return job == state_->jobs.end() || has_ended(job->second) ? std::string() : job->second.spec.script;
+}
+
 SharedBytes Farm::scene(JobId id, std::optional<std::uint32_t> number) const {
   const JobFrame* frame = state_->frame(id, number);
   return frame ? frame->scene_bytes : nullptr;

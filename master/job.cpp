@@ -30,7 +30,7 @@ bool has_ended(const Job& job) {
 }
 
 std::uint64_t film_bytes(const JobFrame& frame) {
-  const Size size = frame.canvas->film->size();
+  const Size size = frame.canvas->size;
   return std::uint64_t{size.width} * size.height * 3 * sizeof(float);
 }
 

@@ -22,8 +22,7 @@ enum class NameId : std::uint32_t {};
 
 /// The big part of a frame, made at its first assignment.
 struct Canvas {
-  explicit Canvas(Size size)
-      : film(std::make_shared<Film>(size)), schedule(size), deliveries(tile_count(size)) {}
+  explicit Canvas(Size of_film) : size(of_film), schedule(size), deliveries(tile_count(size)) {}
 
   /// A tile's passes that are there: whom they came from, and the thread time of all of them.
   struct TileDeliveries {
@@ -31,9 +30,8 @@ struct Canvas {
     FarmTime taken{};
   };
 
-  std::shared_ptr<Film> film;
-  bool is_unread =
-      false;  // of the film only its size is there; the pixels that the schedule says are done can be read
+  Size size;
+  std::shared_ptr<Film> film;  // null: the pixels that the schedule says are done are still to be read
   Schedule schedule;
   std::vector<TileDeliveries> deliveries;  // by tile
   std::vector<NameId> deliverers;          // in the order of their first deliveries

@@ -2,11 +2,46 @@
 
 #include <spdlog/spdlog.h>
 
-#include "master/farm_record.h"
+#include <algorithm>
+#include <iterator>
+
+#include "master/journal/journal.h"
 
 namespace rayfarm {
+namespace {
 
-FarmTime LiveFarm::now() { return std::chrono::steady_clock::now().time_since_epoch(); }
+FarmTime steady_time() { return std::chrono::steady_clock::now().time_since_epoch(); }
+/// Time goes on over the end of a process, and of the PC.
+FarmTime wall_time() { return std::chrono::system_clock::now().time_since_epoch(); }
+
+}  // namespace
+
+LiveFarm::LiveFarm() : clock_offset_(wall_time() - steady_time()) {}
+
+void LiveFarm::open(const std::filesystem::path& journal) {
+  journal_ = std::make_unique<Journal>(journal);
+  Journal::Opened opened = journal_->read();
+  clock_offset_ = std::max(wall_time(), opened.latest) - steady_time();
+  for (const std::string& damage : opened.warnings) note({true, damage, {}});
+  farm_ = Farm({}, std::move(opened.past), now());
+  for (const JobId job : opened.suspects) {
+    const std::string number = std::to_string(static_cast<std::uint64_t>(job));
+    apply([&](Farm& farm, FarmTime now) {
+      farm.pause(job, now,
+                 "it was being rendered when the master crashed, two times in a row; rayfarm resume " +
+                     number + " goes on with it");
+    });
+  }
+  if (opened.is_cut)
+    pause_all(
+        "the end of the journal was damaged on the disk; resume it, and what is missing is rendered again");
+  take_news();
+  keep();
+}
+
+LiveFarm::~LiveFarm() { keep(); }
+
+FarmTime LiveFarm::now() const { return steady_time() + clock_offset_; }
 
 void LiveFarm::note(FarmEvent event) {
   spdlog::log(event.warning ? spdlog::level::warn : spdlog::level::info, "{}", event.text);
@@ -14,8 +49,41 @@ void LiveFarm::note(FarmEvent event) {
 }
 
 LiveFarm::LogAtEnd::~LogAtEnd() {
-  for (FarmEvent& event : live.farm_.take_events()) live.note(std::move(event));
-  live.farm_.take_records();  // nobody keeps them
+  const bool was_kept = live.unwritten_.size() == live.tried_;
+  live.take_news();
+  if (was_kept && live.unwritten_.size() != live.tried_) live.when_changed_();
+}
+
+void LiveFarm::take_news() {
+  for (FarmEvent& event : farm_.take_events()) note(std::move(event));
+  std::vector<FarmRecord> records = farm_.take_records();
+  if (journal_) std::ranges::move(records, std::back_inserter(unwritten_));
+}
+
+void LiveFarm::keep() {
+  std::optional<std::string> fault;
+  if (unwritten_.size() != tried_) try {
+      write();
+    } catch (const JournalError& error) {
+      fault = error.what();
+      if (tried_ == 0) note({true, *fault, {}});
+      pause_all(*fault);
+      tried_ = unwritten_.size();
+    }
+  for (const auto& told : std::exchange(waiting_, {})) told(fault);
+}
+
+void LiveFarm::write() {
+  journal_->write(unwritten_);
+  unwritten_.clear();
+  if (std::exchange(tried_, 0) != 0)
+    note({false, "the journal is written again; resume the jobs that are paused", {}});
+}
+
+void LiveFarm::pause_all(const std::string& why) {
+  for (const JobView& job : farm_.jobs(now()))
+    if (job.state == JobState::waiting || job.state == JobState::running) farm_.pause(job.id, now(), why);
+  take_news();
 }
 
 }  // namespace rayfarm

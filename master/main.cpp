@@ -51,9 +51,9 @@ void expect_distinct_names(const std::vector<std::string>& targets) {
 
 void declare(CLI::App& app, Arguments& arguments) {
   declare_common_options(app, arguments.openness, examples);
-  app.add_option(
-         "--state", arguments.state,
-         "A folder for this master alone: its keys and who it lets in; jobs do not outlive a master yet")
+  app.add_option("--state", arguments.state,
+                 "A folder for this master alone: its keys, who it lets in, jobs and pictures; they outlive "
+                 "the master")
       ->type_name("FOLDER");
   app.add_option("--listen", arguments.listen, "Where workers come; port 0: any free one")
       ->type_name("ADDRESS[:PORT]")
@@ -146,9 +146,15 @@ int serve(const Arguments& arguments) {
   LiveFarm farm;
   Sessions sessions(io, farm, parse_address(arguments.listen, default_farm_port),
                     security_of(arguments.openness, state ? &*state : nullptr), {}, access);
-  FarmDoor door([&](std::function<void(Farm&, FarmTime)> question) {
-    asio::post(io, [&farm, question = std::move(question)] { farm.apply(question); });
-  });
+  FarmDoor door(
+      [&](std::function<void(Farm&, FarmTime)> question) {
+        asio::post(io, [&farm, question = std::move(question)] {
+          farm.keep();  // so that the asker hears of no fault but its own
+          farm.apply(question);
+          farm.keep();
+        });
+      },
+      [&](Told told) { farm.once_kept(std::move(told)); });
   FrameFeeder feeder(door);
   Diagnostics diagnostics(std::max(1u, std::thread::hardware_concurrency()));
   std::string last_told;  // one that comes again and again is told of once
@@ -180,6 +186,10 @@ int serve(const Arguments& arguments) {
                                         .scenes = scenes,
                                         .assets = assets,
                                         .access = access});
+  // Workers and browsers that come meanwhile wait at doors that are bound already.
+  if (state) farm.open(std::filesystem::path(arguments.state) / "journal.db");
+  farm.apply([&](const Farm& f, FarmTime now) { feeder.feed_on(f, now); });
+  farm.when_changed([&] { asio::post(io, [&] { farm.keep(); }); });
   std::optional<LocalThreads> local;
   if (arguments.threads > 0) local.emplace(io, farm, arguments.threads);
   dial_all(sessions, arguments.dial);

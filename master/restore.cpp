@@ -19,7 +19,6 @@ struct Overloaded : Ts... {
 void set_done(const Job& job, JobFrame& frame, const TileCommitted& commit) {
   const Work work{commit.tile, commit.passes};
   frame.canvas->schedule.set_done(work);
-  frame.canvas->is_unread = true;
   frame.pixels_done += pixels_in(work, job.spec.settings);
   frame.counters += commit.counters;
   frame.thread_time += commit.taken;
@@ -87,8 +86,12 @@ void set_in(std::set<std::string, std::less<>>& names, const std::string& name, 
 
 Farm::Farm(FarmLimits limits, FarmPast past, FarmTime now) : Farm(limits) {
   state_->read_pixels = std::move(past.read_pixels);
+  state_->last_lease = std::uint64_t{past.life} << 32;
   for (FarmRecord& record : past.records) state_->restore(std::move(record));
   state_->records.clear();
+  // Another than any of the last life, which somebody may still wait to see the end of.
+  state_->revision =
+      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
   state_->settle(now);
 }
 
@@ -172,7 +175,10 @@ void Farm::State::settle(FarmTime now) {
   std::vector<std::pair<FarmTime, FrameId>> frame_ends;
   for (auto& [id, job] : jobs) {
     settle(job);
-    if (has_ended(job)) job_ends.emplace_back(*job.ended, id);
+    if (has_ended(job)) {
+      job.spec.script = {};
+      job_ends.emplace_back(*job.ended, id);
+    }
     for (const JobFrame& frame : job.frames)
       if (frame.ended && frame.canvas) frame_ends.emplace_back(*frame.ended, FrameId{id, frame.number});
     if (job.state == JobState::running) job.pace.restart(now, job.pixels_done);

@@ -95,7 +95,7 @@ void Farm::State::compare_late(Worker& worker, const Result& result) {
   if (!frame) tell_off(result, "there never was such a frame");
   if (!frame->canvas && frame->ended) return;  // nor here
   if (!frame->canvas) tell_off(result, "nothing of that frame was given");
-  if (frame->canvas->is_unread) return;  // not worth the reading
+  if (!frame->canvas->film) return;  // not worth the reading
   const Size film = size_of(job.spec.settings);
   if (result.tile >= tile_count(film)) tell_off(result, "the picture has no such tile");
   if (const auto fault = fault_of(result.images, film, {result.tile, passes_in(result.images)}))

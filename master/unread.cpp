@@ -33,7 +33,7 @@ const JobFrame* Farm::State::picture(JobId id, std::optional<std::uint32_t> numb
 
 bool Farm::State::read_film(Job& job, JobFrame& frame) {
   Canvas& canvas = *frame.canvas;
-  if (!canvas.is_unread) return true;
+  if (canvas.film) return true;
   const Size size = size_of(job.spec.settings);
   const auto film = std::make_shared<Film>(size);
   RayCounters counters;
@@ -58,7 +58,6 @@ bool Farm::State::read_film(Job& job, JobFrame& frame) {
     return false;
   }
   canvas.film = film;
-  canvas.is_unread = false;
   if (film->pixels_done() != frame.pixels_done) lose_unread(job, frame, frame.counters - counters);
   return true;
 }

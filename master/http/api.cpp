@@ -143,6 +143,8 @@ ApiResponse answer(const ApiRequest& request, const Doors& doors) {
     return error_response(error.status, error.what());
   } catch (const FarmUnavailable& error) {
     return error_response(503, error.what());
+  } catch (const NotKept& error) {
+    return error_response(507, std::string("it was done, but is lost when the master ends: ") + error.what());
   } catch (const std::invalid_argument& error) {
     return error_response(400, error.what());
   } catch (const KeyTaken& error) {

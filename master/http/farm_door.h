@@ -5,7 +5,9 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include "master/farm.h"
@@ -14,18 +16,28 @@ namespace rayfarm {
 
 /// Runs the closure on the farm's thread, some time later; drops it when the master is stopping.
 using OnFarm = std::function<void(std::function<void(Farm&, FarmTime)>)>;
+/// Told why what was done will not outlive the master; nothing when it will.
+using Told = std::function<void(const std::optional<std::string>& fault)>;
 
 struct FarmUnavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct NotKept : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class FarmDoor {
  public:
-  explicit FarmDoor(OnFarm on_farm) : on_farm_(std::move(on_farm)) {}
+  /// once_kept(told) is called on the farm's thread, within a closure of on_farm, and tells after its end.
+  explicit FarmDoor(
+      OnFarm on_farm, std::function<void(Told)> once_kept = [](const Told& told) { told({}); })
+      : on_farm_(std::move(on_farm)), once_kept_(std::move(once_kept)) {}
 
   /// Runs question(farm, now) on the farm's thread and waits for its answer. The question must own what it
-  /// uses: the wait can end first. Throws what the question throws, and FarmUnavailable after close() or 10
-  /// s; the question is then never asked, so it may be tried again.
+  /// uses: the wait can end first. Nobody is told what the end of the master could undo. Throws what the question
+  /// throws; NotKept when it was done, but may be undone; FarmUnavailable after close() or 10 s: the question is then
+  /// never asked, so it may be tried again.
   template <class Question>
   std::invoke_result_t<Question&, Farm&, FarmTime> ask(Question question) const {
     using Answer = std::invoke_result_t<Question&, Farm&, FarmTime>;
@@ -33,11 +45,17 @@ class FarmDoor {
     std::future<Answer> answer = promise->get_future();
     // Set by whoever is first: the farm to answer, or the asker to leave.
     auto decided = std::make_shared<std::atomic_flag>();
-    on_farm_([promise = std::move(promise), decided, question = std::move(question)](Farm& farm,
-                                                                                     FarmTime now) mutable {
+    on_farm_([this, promise = std::move(promise), decided, question = std::move(question)](
+                 Farm& farm, FarmTime now) mutable {
       if (decided->test_and_set()) return;
       try {
-        promise->set_value(question(farm, now));
+        auto found = std::make_shared<Answer>(question(farm, now));
+        once_kept_([promise, found](const std::optional<std::string>& fault) {
+          if (fault)
+            promise->set_exception(std::make_exception_ptr(NotKept(*fault)));
+          else
+            promise->set_value(std::move(*found));
+        });
       } catch (...) {
         promise->set_exception(std::current_exception());
       }
@@ -61,6 +79,7 @@ class FarmDoor {
   static constexpr auto glance = std::chrono::milliseconds(50);  // how late close() may be seen
 
   OnFarm on_farm_;
+  std::function<void(Told)> once_kept_;
   std::atomic<bool> closed_{false};
 };
 

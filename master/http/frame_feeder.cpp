@@ -1,9 +1,13 @@
 #include "master/http/frame_feeder.h"
 
+#include <nlohmann/json.hpp>
+
 #include "common/net/codec.h"
 
 namespace rayfarm {
 namespace {
+
+using nlohmann::json;
 
 constexpr auto full_pause = std::chrono::milliseconds(200);  // until a full farm is asked again
 
@@ -16,9 +20,35 @@ Taken brought(const FarmDoor& farm, FrameId id, const SceneData& scene,
   return goes_on ? Taken::yes : Taken::never;
 } catch (const FarmFull&) {
   return Taken::not_now;
+} catch (const NotKept&) {
+  return Taken::yes;  // its job is paused, and says why
 }
 
 }  // namespace
+
+// As CBOR: a script may have any bytes, and JSON's texts may not.
+std::string kept_script(const ScriptRequest& script) {
+  json kept{{"name", script.name},
+            {"text", script.text},
+            {"params", script.params},
+            {"folder", script.folder.string()}};
+  if (const auto& animation = script.animation)
+    kept["animation"] = {animation->start, animation->stop, animation->fps};
+  std::string bytes;
+  json::to_cbor(kept, bytes);
+  return bytes;
+}
+
+ScriptRequest script_kept_as(const std::string& kept) {
+  const json script = json::from_cbor(kept);
+  ScriptRequest request{script.at("name"), script.at("text"), script.at("params"), 0, {}, {}};
+  request.folder = script.at("folder").get<std::string>();
+  if (script.contains("animation")) {
+    const json& numbers = script["animation"];
+    request.animation = Animation{numbers.at(0), numbers.at(1), numbers.at(2)};
+  }
+  return request;
+}
 
 FrameFeeder::FrameFeeder(const FarmDoor& farm) : farm_(farm), thread_([this] { work(); }) {}
 
@@ -31,6 +61,15 @@ FrameFeeder::~FrameFeeder() {
 void FrameFeeder::feed(JobId job, ScriptRequest script, FrameRange frames) {
   const std::lock_guard lock(mutex_);
   feeds_.push_back({job, std::move(script), frames, 1});
+  changed_.notify_one();
+}
+
+void FrameFeeder::feed_on(const Farm& farm, FarmTime now) {
+  const std::lock_guard lock(mutex_);
+  for (const JobView& job : farm.jobs(now))
+    if (const std::string script = farm.script(job.id);
+        !script.empty() && job.frames_sent < job.frames.count())
+      feeds_.push_back({job.id, script_kept_as(script), job.frames, job.frames_sent});
   changed_.notify_one();
 }
 

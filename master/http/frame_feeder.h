@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "master/frame_range.h"
@@ -12,6 +13,10 @@
 #include "master/script/script.h"
 
 namespace rayfarm {
+
+/// What a farm keeps with a job whose frames come of this script (JobSpec::script), and the reverse.
+std::string kept_script(const ScriptRequest& script);
+ScriptRequest script_kept_as(const std::string& kept);
 
 /// All calls are made from any thread.
 class FrameFeeder {
@@ -26,6 +31,8 @@ class FrameFeeder {
   /// The frames after the first one. The request names script, parameters and animation. A script that fails in one
   /// of them fails the job. Jobs that are fed at the same time take turns.
   void feed(JobId job, ScriptRequest script, FrameRange frames);
+  /// Those jobs of the farm that lack frames, after its last life. Called on the farm's thread.
+  void feed_on(const Farm& farm, FarmTime now);
 
  private:
   struct Feed {

@@ -38,6 +38,7 @@ class FarmPrograms : public testing::Test {
   ChildProgram& worker(const std::string& name) { return *workers_.at(name); }
   /// As kill -9.
   void kill_worker(const std::string& name) { workers_.erase(name); }
+  void kill_master() { master_.reset(); }
   void kill_all();
   /// ADDRESS:PORT where workers come.
   const std::string& farm_address() const { return farm_address_; }

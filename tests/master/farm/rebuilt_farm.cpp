@@ -69,7 +69,7 @@ void expect_same_picture(const Farm& before, const Farm& after, FrameId id) {
 }  // namespace
 
 FarmPast past_of(const std::vector<FarmRecord>& records) {
-  return {records, [&records](FrameId frame, const std::function<void(const TileCommitted&)>& put) {
+  return {records, 1, [&records](FrameId frame, const std::function<void(const TileCommitted&)>& put) {
             for (const FarmRecord& record : records)
               if (const auto* commit = std::get_if<TileCommitted>(&record.fact))
                 if (commit->frame == frame) put(*commit);

@@ -280,6 +280,32 @@ TEST(FarmDoor, WhatItsAskerGaveUpIsNotDoneLater) {
   EXPECT_TRUE(farm.jobs(FarmTime{}).empty());
 }
 
+TEST(FarmDoor, TellsNobodyWhatMayBeUndone) {
+  Farm farm;
+  std::vector<Told> waiting;
+  bool is_kept = false;
+  std::jthread thread;
+  const FarmDoor door(
+      [&](const auto& task) {
+        thread = std::jthread([&, task] {
+          task(farm, FarmTime{});
+          is_kept = true;
+          waiting.at(0)(std::nullopt);
+        });
+      },
+      [&](Told told) { waiting.push_back(std::move(told)); });
+  door.ask([](Farm& f, FarmTime now) { return f.submit(small_job(), now); });
+  EXPECT_TRUE(is_kept);
+}
+
+TEST(FarmDoor, SaysWhatWasDoneButNotKept) {
+  Farm farm;
+  const FarmDoor door([&](const auto& task) { task(farm, FarmTime{}); },
+                      [](const Told& told) { told("the disk is full"); });
+  EXPECT_THROW(door.ask([](Farm& f, FarmTime now) { return f.submit(small_job(), now); }), NotKept);
+  EXPECT_EQ(farm.jobs(FarmTime{}).size(), 1u);
+}
+
 TEST(NewsWait, IsAskedForByJobsAloneAndIsBounded) {
   const auto wait = [](const char* target) { return news_wait({"GET", target, "", "", "", "", ""}); };
   EXPECT_EQ(wait("/api/v1/jobs?after=3&wait=10")->after, 3u);

@@ -1,0 +1,90 @@
+#include "master/journal/database.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "master/journal/journal.h"
+
+namespace rayfarm {
+namespace {
+
+constexpr int schema_version = 1;
+constexpr int patience_ms = 5000;  // for the journal's other connection, which syncs
+
+// jobs      spec and status: rows.h, sealed by the job; is_live: it is being rendered; crashes: in a row
+// frames    what came of a frame (sealed), when it started; dropped: what is known of a picture that is gone (sealed)
+// blobs     scenes and assets by hash, sealed; uses: which frames they belong to
+// tiles     one row a commit (sealed by job, frame, id), small, as all are read at a start
+// pixels    those of the commit with the same id, sealed by it
+// workers   all that were here, in the order of their coming
+// facts     is_running; lives: how often it was opened; writes: how many transactions there were
+constexpr auto schema = R"(
+CREATE TABLE facts (name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE jobs (id INTEGER PRIMARY KEY AUTOINCREMENT, spec BLOB NOT NULL, status BLOB,
+                   is_live INTEGER NOT NULL DEFAULT 0, crashes INTEGER NOT NULL DEFAULT 0);
+CREATE TABLE frames (job INTEGER, frame INTEGER, body BLOB NOT NULL, has_scene INTEGER NOT NULL, started INTEGER,
+                     dropped BLOB, PRIMARY KEY (job, frame)) WITHOUT ROWID;
+CREATE TABLE blobs (hash TEXT PRIMARY KEY, data BLOB NOT NULL);
+CREATE TABLE uses (job INTEGER, frame INTEGER, hash TEXT, PRIMARY KEY (job, frame, hash)) WITHOUT ROWID;
+CREATE INDEX uses_by_hash ON uses (hash);
+CREATE TABLE tiles (job INTEGER, frame INTEGER, id INTEGER, body BLOB NOT NULL,
+                    PRIMARY KEY (job, frame, id)) WITHOUT ROWID;
+CREATE TABLE pixels (id INTEGER PRIMARY KEY, data BLOB NOT NULL);
+CREATE TABLE workers (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, is_drained INTEGER NOT NULL DEFAULT 0,
+                      is_banned INTEGER NOT NULL DEFAULT 0);
+INSERT INTO facts VALUES ('is_running', 0), ('lives', 0), ('writes', 0);
+)";
+
+/// Its own, so that SQLite gives the write-ahead log the same rights: jobs are nobody else's business.
+std::string made(const std::filesystem::path& file) {
+  const int made = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+  if (made < 0)
+    throw JournalError("the journal " + file.string() + " cannot be written: " + std::strerror(errno) +
+                       "; choose another folder with --state");
+  close(made);
+  return file.string();
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const SQLite::Exception& error) {
+  throw JournalError("the journal " + file.string() + " cannot be used: " + error.what() +
+                     "; move it away to begin with an empty farm, or choose another folder with --state");
+}
+
+void make_schema(SQLite::Database& database, const std::filesystem::path& file) {
+  const int version = database.execAndGet("PRAGMA user_version");
+  if (version > schema_version)
+    throw JournalError("the journal " + file.string() + " was written by a newer rayfarm (its version " +
+                       std::to_string(version) + ", known here " + std::to_string(schema_version) +
+                       "): install that, or choose another folder with --state");
+  if (version == schema_version) return;
+  // Version and tables come in one transaction: there are all of them, or none.
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  database.exec(schema);
+  database.exec("PRAGMA user_version = " + std::to_string(schema_version));
+  transaction.commit();
+}
+
+}  // namespace
+
+Database::Database(const std::filesystem::path& file) try
+    : sqlite_(made(file), SQLite::OPEN_READWRITE, patience_ms) {
+  sqlite_.exec("PRAGMA journal_mode = WAL");
+  sqlite_.exec("PRAGMA synchronous = NORMAL");    // WalSync syncs, on its thread
+  sqlite_.exec("PRAGMA wal_autocheckpoint = 0");  // and moves the log into the file
+  make_schema(sqlite_, file);
+} catch (const SQLite::Exception& error) {
+  refuse(file, error);
+}
+
+SQLite::Statement& Database::prepared(const char* sql) {
+  auto known = statements_.find(sql);
+  if (known == statements_.end()) known = statements_.try_emplace(sql, sqlite_, sql).first;
+  known->second.tryReset();  // also after an error
+  known->second.clearBindings();
+  return known->second;
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,203 @@
+// Writing.
+#include "master/journal/journal.h"
+
+#include <algorithm>
+
+#include "master/journal/journal_state.h"
+
+namespace rayfarm {
+namespace {
+
+constexpr auto what_to_do = "; make room there or mend the disk, then resume the job";
+
+std::vector<std::int64_t> frames_of(Database& database, JobId job) {
+  std::vector<std::int64_t> frames;
+  const Query query = database.query("SELECT frame FROM frames WHERE job = ?", number_of(job));
+  while (query->executeStep()) frames.push_back(query->getColumn(0));
+  return frames;
+}
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& file) try : state_(std::make_unique<State>(file)) {
+  state_->begin();
+} catch (const SQLite::Exception& error) {
+  throw JournalError("the journal " + file.string() + " cannot be used: " + error.what() +
+                     "; move it away to begin with an empty farm, or choose another folder with --state");
+}
+
+Journal::~Journal() {
+  try {
+    state_->set_fact("is_running", 0);
+    state_->sync.wake(state_->writes);
+  } catch (const SQLite::Exception&) {
+    // The next start takes this for a crash, which is right.
+  }
+}
+
+void Journal::State::begin() {
+  SQLite::Transaction transaction(database.sqlite(), SQLite::TransactionBehavior::IMMEDIATE);
+  database.run(
+      "UPDATE jobs SET crashes = CASE WHEN is_live AND (SELECT value FROM facts WHERE name = 'is_running') "
+      "THEN crashes + 1 ELSE 0 END WHERE crashes != 0 OR is_live");
+  set_fact("is_running", 1);
+  set_fact("lives", lives = fact("lives") + 1);
+  writes = fact("writes");
+  lost_writes = std::max(std::int64_t{0}, marked_writes(file) - writes);
+  if (lost_writes > 0) set_fact("writes", writes = marked_writes(file));  // told once
+  const Query last = database.query("SELECT max(id) FROM pixels");
+  if (last->executeStep()) last_tile = last->getColumn(0);
+  transaction.commit();
+}
+
+std::int64_t Journal::State::fact(const char* name) {
+  const Query query = database.query("SELECT value FROM facts WHERE name = ?", std::string(name));
+  return query->executeStep() ? query->getColumn(0).getInt64() : 0;
+}
+
+void Journal::State::set_fact(const char* name, std::int64_t value) {
+  database.run("UPDATE facts SET value = ? WHERE name = ?", value, std::string(name));
+}
+
+void Journal::write(std::span<const FarmRecord> records) try {
+  if (const auto fault = state_->sync.take_fault())
+    throw JournalError("the journal cannot be synced: " + *fault + what_to_do);
+  const auto workers = state_->workers;
+  const std::int64_t last_tile = state_->last_tile;
+  try {
+    SQLite::Transaction transaction(state_->database.sqlite(), SQLite::TransactionBehavior::IMMEDIATE);
+    for (const FarmRecord& record : records)
+      std::visit([this](const auto& fact) { state_->write(fact); }, record.fact);
+    state_->set_fact("writes", state_->writes + 1);
+    transaction.commit();
+    ++state_->writes;
+  } catch (...) {
+    state_->workers = workers, state_->last_tile = last_tile;
+    throw;
+  }
+  state_->sync.wake(state_->writes);
+} catch (const SQLite::Exception& error) {
+  throw JournalError("the journal " + state_->file.string() + " cannot be written: " + error.what() +
+                     what_to_do);
+}
+
+void Journal::State::write(const JobAdded& added) {
+  films[added.id] = {added.spec.settings.width, added.spec.settings.height};
+  const Bytes row = seal(encode_row(added), key_of(added.id));
+  database.run("INSERT INTO jobs (id, spec) VALUES (?, ?)", number_of(added.id), row);
+}
+
+void Journal::State::write(const FrameAdded& added) {
+  FrameRow frame{added.scene_hash, {}};
+  for (const AssetData& asset : added.assets) frame.assets.push_back(asset.hash);
+  const Bytes row = seal(encode_row(frame), key_of(added.id));
+  database.run("INSERT INTO frames (job, frame, body, has_scene) VALUES (?, ?, ?, ?)",
+               number_of(added.id.job), added.id.frame, row, added.scene ? 1 : 0);
+  if (!added.scene) return;
+  keep_blob(added.id, added.scene_hash, added.scene);
+  for (const AssetData& asset : added.assets) keep_blob(added.id, asset.hash, asset.bytes);
+}
+
+void Journal::State::keep_blob(FrameId user, const std::string& hash, const SharedBytes& bytes) {
+  database.run("INSERT OR IGNORE INTO uses VALUES (?, ?, ?)", number_of(user.job), user.frame, hash);
+  const Query known = database.query("SELECT 1 FROM blobs WHERE hash = ?", hash);
+  const bool is_known = known->executeStep();
+  if (is_known) return;
+  const Bytes row = seal(*bytes, {});
+  database.run("INSERT INTO blobs VALUES (?, ?)", hash, row);
+}
+
+void Journal::State::write(const FrameStarted& started) {
+  database.run("UPDATE frames SET started = ? WHERE job = ? AND frame = ?", started.at.count(),
+               number_of(started.id.job), started.id.frame);
+}
+
+void Journal::State::write(const TileCommitted& commit) {
+  const std::int64_t id = ++last_tile;
+  const auto worker = workers.find(commit.worker);
+  const Bytes pixels = seal(pack_pixels(commit), key_of_pixels(id));
+  database.run("INSERT INTO pixels VALUES (?, ?)", id, pixels);
+  const std::uint64_t by = worker == workers.end() ? 0 : static_cast<std::uint64_t>(worker->second);
+  const Bytes row = seal(encode_row(commit, by), key_of(commit.frame, id));
+  database.run("INSERT INTO tiles VALUES (?, ?, ?, ?)", number_of(commit.frame.job), commit.frame.frame, id,
+               row);
+}
+
+void Journal::State::write(const PassesLost& lost) {
+  std::vector<std::int64_t> ids;
+  const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ?",
+                                     number_of(lost.frame.job), lost.frame.frame);
+  while (query->executeStep()) {
+    const std::int64_t id = query->getColumn(0);
+    const auto body = unseal(bytes_of(query->getColumn(1)), key_of(lost.frame, id));
+    if (!body) continue;
+    const TileCommitted commit = decode_tile(lost.frame, *body).commit;
+    for (const Work& work : lost.lost)
+      if (work.tile == commit.tile && (work.passes & commit.passes)) ids.push_back(id);
+  }
+  for (const std::int64_t id : ids) {
+    database.run("DELETE FROM pixels WHERE id = ?", id);
+    database.run("DELETE FROM tiles WHERE job = ? AND frame = ? AND id = ?", number_of(lost.frame.job),
+                 lost.frame.frame, id);
+  }
+}
+
+void Journal::State::write(const JobChanged& changed) {
+  const Bytes row = seal(encode_row(changed), key_of(changed.id));
+  const bool is_live = changed.state == JobState::running;
+  // Who was not being rendered in between begins anew.
+  database.run("UPDATE jobs SET status = ?, is_live = ?, crashes = crashes * ? WHERE id = ?", row, is_live,
+               is_live, number_of(changed.id));
+}
+
+void Journal::State::write(const SceneDropped& dropped) { drop_scene(dropped.id); }
+
+void Journal::State::write(const PictureDropped& dropped) {
+  drop_scene(dropped.id);
+  drop_tiles(dropped.id);
+  const Bytes row = seal(encode_row(dropped), key_of(dropped.id));
+  database.run("UPDATE frames SET dropped = ? WHERE job = ? AND frame = ?", row, number_of(dropped.id.job),
+               dropped.id.frame);
+}
+
+void Journal::State::write(const JobDropped& dropped) {
+  for (const std::int64_t frame : frames_of(database, dropped.id)) {
+    const FrameId id{dropped.id, static_cast<std::uint32_t>(frame)};
+    drop_scene(id);
+    drop_tiles(id);
+  }
+  database.run("DELETE FROM frames WHERE job = ?", number_of(dropped.id));
+  database.run("DELETE FROM jobs WHERE id = ?", number_of(dropped.id));
+  films.erase(dropped.id);
+}
+
+void Journal::State::drop_scene(FrameId id) {
+  database.run(
+      "DELETE FROM blobs WHERE hash IN (SELECT hash FROM uses WHERE job = ?1 AND frame = ?2) AND NOT EXISTS "
+      "(SELECT 1 FROM uses WHERE uses.hash = blobs.hash AND NOT (job = ?1 AND frame = ?2))",
+      number_of(id.job), id.frame);
+  database.run("DELETE FROM uses WHERE job = ? AND frame = ?", number_of(id.job), id.frame);
+  database.run("UPDATE frames SET has_scene = 0 WHERE job = ? AND frame = ?", number_of(id.job), id.frame);
+}
+
+void Journal::State::drop_tiles(FrameId id) {
+  database.run("DELETE FROM pixels WHERE id IN (SELECT id FROM tiles WHERE job = ? AND frame = ?)",
+               number_of(id.job), id.frame);
+  database.run("DELETE FROM tiles WHERE job = ? AND frame = ?", number_of(id.job), id.frame);
+}
+
+void Journal::State::write(const WorkerNamed& named) {
+  database.run("INSERT OR IGNORE INTO workers (name) VALUES (?)", named.name);
+  const Query query = database.query("SELECT id FROM workers WHERE name = ?", named.name);
+  if (query->executeStep()) workers[named.name] = query->getColumn(0);
+}
+
+void Journal::State::write(const WorkerDrained& drained) {
+  database.run("UPDATE workers SET is_drained = ? WHERE name = ?", drained.is_drained, drained.name);
+}
+
+void Journal::State::write(const WorkerBanned& banned) {
+  database.run("UPDATE workers SET is_banned = ? WHERE name = ?", banned.is_banned, banned.name);
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,52 @@
+// What a farm must not forget, on disk: SQLite in WAL mode, in one file of its own.
+//
+// What write() has written survives the end of the process at any instant; what is older than 100 ms also that of the
+// power, as a thread of the journal's own syncs the write-ahead log. Scenes and assets are kept once, by hash; pixels
+// compressed; both, and every row that a picture depends on, with a checksum: what is damaged is left out, never taken
+// for sound. A log that lost its end is noticed, too. What the farm drops is deleted, and its place is used again.
+//
+// Opening costs a few microseconds a tile: pixels are read when they are needed.
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "master/farm_record.h"
+
+namespace rayfarm {
+
+/// The message names the file, what is wrong with it, and what to do.
+struct JournalError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// All calls are made from one thread.
+class Journal {
+ public:
+  /// Makes the file if it is missing. Throws JournalError when it cannot be used: not writable, no journal, of a newer
+  /// version, damaged at its root.
+  explicit Journal(const std::filesystem::path& file);
+  /// The next one knows that this was no crash.
+  ~Journal();
+
+  struct Opened {
+    FarmPast past;                      // reads from this journal, which must live as long
+    std::vector<JobId> suspects;        // that were being rendered at both of the last two crashes
+    std::vector<std::string> warnings;  // damage
+    bool is_cut = false;                // the last changes are lost
+    FarmTime latest{};                  // no time in the records is later
+  };
+  Opened read();
+
+  /// All of them or, when it throws JournalError, none: to be written again later.
+  void write(std::span<const FarmRecord> records);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rayfarm

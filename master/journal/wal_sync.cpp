@@ -1,0 +1,118 @@
+#include "master/journal/wal_sync.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+namespace rayfarm {
+namespace {
+
+constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
+constexpr std::uintmax_t large_log = 16u << 20;            // bytes: then it is moved into the file
+constexpr std::uintmax_t huge_log = 64u << 20;             // bytes: then writers wait until it is empty
+constexpr int patience_ms = 5000;
+
+std::filesystem::path log_of(const std::filesystem::path& journal) { return journal.string() + "-wal"; }
+
+/// Closing it drops no lock: SQLite locks the other two of its files.
+void sync_file(const std::filesystem::path& file) {
+  const int opened = open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (opened < 0 && errno == ENOENT) return;
+  const bool is_synced = opened >= 0 && fdatasync(opened) == 0;
+  const int error = errno;
+  if (opened >= 0) close(opened);
+  if (!is_synced) throw std::runtime_error(file.string() + ": " + std::strerror(error));
+}
+
+std::filesystem::path mark_of(const std::filesystem::path& journal) { return journal.string() + "-mark"; }
+
+/// Twice, so that a mark that was not written whole is none.
+void put_mark(const std::filesystem::path& journal, std::int64_t writes) {
+  const std::array<std::int64_t, 2> mark{writes, ~writes};
+  const std::filesystem::path file = mark_of(journal);
+  const int opened = open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  const bool is_put = opened >= 0 && pwrite(opened, mark.data(), sizeof mark, 0) == sizeof mark;
+  const int error = errno;
+  if (opened >= 0) close(opened);
+  if (!is_put) throw std::runtime_error(file.string() + ": " + std::strerror(error));
+}
+
+void empty_log(const std::filesystem::path& journal, int how) {
+  SQLite::Database database(journal.string(), SQLite::OPEN_READWRITE, patience_ms);
+  // Busy is no fault: the next time will do.
+  const int result = sqlite3_wal_checkpoint_v2(database.getHandle(), nullptr, how, nullptr, nullptr);
+  if (result != SQLITE_OK && result != SQLITE_BUSY) throw SQLite::Exception(database.getHandle(), result);
+}
+
+}  // namespace
+
+std::int64_t marked_writes(const std::filesystem::path& journal) {
+  std::array<std::int64_t, 2> mark{};
+  std::ifstream(mark_of(journal), std::ios::binary).read(reinterpret_cast<char*>(mark.data()), sizeof mark);
+  return mark[1] == ~mark[0] ? mark[0] : 0;
+}
+
+WalSync::WalSync(std::filesystem::path journal) : journal_(std::move(journal)), thread_([this] { work(); }) {}
+
+WalSync::~WalSync() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+  }
+  news_.notify_one();
+  thread_.join();
+}
+
+void WalSync::wake(std::int64_t writes) {
+  {
+    const std::lock_guard lock(mutex_);
+    writes_ = writes;
+  }
+  news_.notify_one();
+}
+
+std::optional<std::string> WalSync::take_fault() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(fault_, std::nullopt);
+}
+
+void WalSync::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    news_.wait(lock, [this] { return writes_ != synced_ || is_ending_; });
+    const bool was_last = is_ending_;
+    if (synced_ != writes_) {
+      const std::int64_t writes = synced_ = writes_;
+      lock.unlock();
+      try {
+        sync(writes);
+        lock.lock();
+      } catch (const std::exception& error) {
+        lock.lock();
+        fault_ = error.what();
+      }
+    }
+    if (was_last) return;
+    news_.wait_for(lock, interval, [this] { return is_ending_; });
+  }
+}
+
+void WalSync::sync(std::int64_t writes) {
+  const std::filesystem::path log = log_of(journal_);
+  sync_file(log);
+  put_mark(journal_, writes);
+  std::error_code missing;
+  const std::uintmax_t size = std::filesystem::file_size(log, missing);
+  if (missing || size < large_log) return;
+  empty_log(journal_, SQLITE_CHECKPOINT_PASSIVE);
+  if (size >= huge_log) empty_log(journal_, SQLITE_CHECKPOINT_TRUNCATE);
+}
+
+}  // namespace rayfarm

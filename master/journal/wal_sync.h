@@ -1,0 +1,46 @@
+// Makes what was committed survive the end of the power: syncs a journal's write-ahead log, and moves it into the
+// journal's file when it has grown, on a thread of its own.
+//
+// SQLite takes a log as far as it is whole and says nothing of the rest. So the number of the last write that was synced
+// stands in a small file of its own, the mark: a journal that has fewer was damaged.
+#pragma once
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace rayfarm {
+
+/// How many writes were synced; 0 when nobody knows.
+std::int64_t marked_writes(const std::filesystem::path& journal);
+
+class WalSync {
+ public:
+  /// The journal is open and stays so.
+  explicit WalSync(std::filesystem::path journal);
+  /// After a last sync.
+  ~WalSync();
+  WalSync(const WalSync&) = delete;
+
+  /// So many writes were committed; they will be synced within 100 ms, or as soon as the disk allows.
+  void wake(std::int64_t writes);
+  /// Why the disk did not take what was committed; told once.
+  std::optional<std::string> take_fault();
+
+ private:
+  void work();
+  void sync(std::int64_t writes);
+
+  const std::filesystem::path journal_;
+  std::mutex mutex_;
+  std::condition_variable news_;
+  std::int64_t writes_ = 0, synced_ = 0;
+  bool is_ending_ = false;
+  std::optional<std::string> fault_;
+  std::thread thread_;
+};
+
+}  // namespace rayfarm
