@@ -120,6 +120,8 @@ void Farm::State::blame(const Lease& oldest, NameId lost, std::uint64_t process,
   Job& job = jobs.at(oldest.job);
   JobFrame& frame = frame_at(job, oldest.frame);
   const bool is_first = frame.pixels_done == 0;
+  const auto is_alive = [process](const auto& worker) { return worker.second.info.process == process; };
+  if (process != 0 && std::ranges::any_of(workers, is_alive)) return;  // on another connection
   Canvas::Victims& victims =
       is_first ? frame.canvas->lost_at_first : frame.canvas->lost_over[oldest.work.tile];
   victims[lost] = process;

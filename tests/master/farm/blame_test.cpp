@@ -19,8 +19,10 @@ class Blame : public testing::Test {
   }
   JobState state() const { return farm_.job(job_, 1s)->state; }
 
- private:
+ protected:
   Farm farm_;
+
+ private:
   JobId job_{};
 };
 
@@ -44,6 +46,12 @@ TEST_F(Blame, WorkersThatComeBackAliveHaveOnlyLostTheNetwork) {
     join_and_be_lost(i, 100 + i % 2);  // known by the process, whatever the name
     join_and_be_lost(100 + i, 100 + i % 2);
   }
+  EXPECT_EQ(state(), JobState::running);
+}
+
+TEST_F(Blame, AWorkerThatIsHereOnAnotherConnectionIsAlive) {
+  const FakeWorker here(farm_, {.name = "pc", .threads = 1, .process = 7});
+  for (int i = 0; i < 20; ++i) join_and_be_lost(i, 7);
   EXPECT_EQ(state(), JobState::running);
 }
 
