@@ -73,7 +73,8 @@ void read_in_process(const std::filesystem::path& file) {
 
 /// From the start of the process to its first answer; then it is killed.
 double time_to_serve(const std::vector<std::string>& options, const std::string& target) {
-  std::vector<std::string> words{"rayfarm-master", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--threads", "0"};
+  std::vector<std::string> words{"rayfarm-master", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0",
+                                 "--threads",      "0"};
   words.insert(words.end(), options.begin(), options.end());
   const auto begin = Clock::now();
   ChildProgram master(words, {}, "/dev/null");
@@ -103,5 +104,6 @@ int main() {
     ::waitpid(filler, nullptr, 0);
   read_in_process(file);
   serve_again("a master without a state serves", {}, "/api/v1/jobs");
-  serve_again("a killed master serves again, a job of 1,000", {"--state", folder.path()}, "/api/v1/jobs/1000");
+  serve_again("a killed master serves again, a job of 1,000", {"--state", folder.path()},
+              "/api/v1/jobs/1000");
 }
