@@ -15,8 +15,8 @@ namespace rayfarm {
 namespace {
 
 constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
-constexpr std::uintmax_t large_log = 16u << 20;            // bytes: then it is moved into the file
-constexpr std::uintmax_t huge_log = 64u << 20;             // bytes: then writers wait until it is empty
+constexpr std::uintmax_t large_log = 4u << 20;             // bytes: then it is moved into the file
+constexpr std::uintmax_t huge_log = 16u << 20;             // bytes: then writers wait until it is empty
 constexpr int patience_ms = 5000;
 
 std::filesystem::path log_of(const std::filesystem::path& journal) { return journal.string() + "-wal"; }
