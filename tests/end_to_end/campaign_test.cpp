@@ -84,6 +84,7 @@ TEST_F(Campaign, EveryPictureHasTheBytesOfAnUndisturbedOne) {
     const std::uint64_t back = job(id).at("tiles_given_back").get<std::uint64_t>();
     std::printf("seed %u: %zu bytes right, %llu tiles given back\n", seed, undisturbed(picture).size(),
                 static_cast<unsigned long long>(back));
+    std::fflush(stdout);  // also when it is a file: a campaign is long
     given_back += back;
     for (unsigned i = 0; i < workers; ++i) kill_worker(name_of(i));
   }
