@@ -53,6 +53,7 @@ bool Farm::State::give_one(Worker& worker, FarmTime now) {
 
 void Farm::State::fill(Worker& worker, FarmTime now) {
   while (give_one(worker, now)) {}
+  double_stragglers(now);
 }
 
 void Farm::State::fill_all(FarmTime now) {
@@ -62,6 +63,7 @@ void Farm::State::fill_all(FarmTime now) {
     anybody_took = false;
     for (auto& [id, worker] : workers) anybody_took |= give_one(worker, now);
   }
+  double_stragglers(now);
 }
 
 bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
@@ -87,33 +89,38 @@ bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
   return true;
 }
 
-void Farm::State::end_lease(Worker& worker, LeaseId id) {
-  const Lease lease = take_lease(worker, id);
+void Farm::State::end_lease(Worker& worker, LeaseId id, FarmTime now) {
+  const Lease lease = take_lease(worker, id, now);
   Job& job = jobs.at(lease.job);
-  frame_at(job, lease.frame).canvas->schedule.give_back(lease.work);
-  job.open.insert(job.spec.frames->index_of(lease.frame).value());
+  job.time_wasted += time_wasted(lease, now);
   ++job.tiles_given_back;
   touch(job);
+  if (lease.twin) {
+    workers.at(lease.twin->worker).leases.at(lease.twin->lease).twin.reset();
+    return;
+  }
+  frame_at(job, lease.frame).canvas->schedule.give_back(lease.work);
+  job.open.insert(job.spec.frames->index_of(lease.frame).value());
   update_queue(job);
 }
 
-std::vector<LeaseId> Farm::State::end_leases(Worker& worker) {
+std::vector<LeaseId> Farm::State::end_leases(Worker& worker, FarmTime now) {
   std::vector<LeaseId> ids;
   for (const auto& [id, lease] : worker.leases) ids.push_back(id);
-  for (const LeaseId id : ids) end_lease(worker, id);
+  for (const LeaseId id : ids) end_lease(worker, id, now);
   return ids;
 }
 
-void Farm::State::revoke(Worker& worker, JobId job) {
+void Farm::State::revoke(Worker& worker, JobId job, FarmTime now) {
   Revoke revoke;
   for (const auto& [id, lease] : worker.leases)
     if (lease.job == job) revoke.leases.push_back(id);
-  for (const LeaseId lease : revoke.leases) end_lease(worker, lease);
+  for (const LeaseId lease : revoke.leases) end_lease(worker, lease, now);
   if (!revoke.leases.empty()) worker.send(std::move(revoke));
 }
 
-void Farm::State::revoke_everywhere(JobId job) {
-  for (auto& [id, worker] : workers) revoke(worker, job);
+void Farm::State::revoke_everywhere(JobId job, FarmTime now) {
+  for (auto& [id, worker] : workers) revoke(worker, job, now);
 }
 
 void Farm::State::blame(const Lease& oldest, NameId lost, std::uint64_t process, FarmTime now) {
@@ -125,11 +132,12 @@ void Farm::State::blame(const Lease& oldest, NameId lost, std::uint64_t process,
   Canvas::Victims& victims =
       is_first ? frame.canvas->lost_at_first : frame.canvas->lost_over[oldest.work.tile];
   victims[lost] = process;
+  frames_with_victims.insert({job.id, frame.number});
   if (victims.size() < most_victims) return;
   std::string who;
   for (const auto& [name, its_process] : victims)
     who += (who.empty() ? "" : ", ") + names[static_cast<std::size_t>(name)];
-  revoke_everywhere(job.id);
+  revoke_everywhere(job.id, now);
   fail(job,
        "workers are lost again and again over " +
            (is_first ? "" : "tile " + std::to_string(oldest.work.tile) + " of ") + title_of(job, frame) +
@@ -140,12 +148,16 @@ void Farm::State::blame(const Lease& oldest, NameId lost, std::uint64_t process,
 void Farm::State::exonerate(std::uint64_t process) {
   if (process == 0) return;
   const auto is_it = [process](const auto& victim) { return victim.second == process; };
-  for (auto& [id, job] : jobs)
-    for (JobFrame& frame : job.frames) {
-      if (!frame.canvas) continue;
-      std::erase_if(frame.canvas->lost_at_first, is_it);
-      for (auto& [tile, victims] : frame.canvas->lost_over) std::erase_if(victims, is_it);
-    }
+  std::erase_if(frames_with_victims, [&](FrameId id) {
+    const auto job = jobs.find(id.job);
+    if (job == jobs.end()) return true;
+    std::optional<Canvas>& canvas = frame_at(job->second, id.frame).canvas;
+    if (!canvas) return true;
+    std::erase_if(canvas->lost_at_first, is_it);
+    for (auto& [tile, victims] : canvas->lost_over) std::erase_if(victims, is_it);
+    std::erase_if(canvas->lost_over, [](const auto& lost) { return lost.second.empty(); });
+    return canvas->lost_at_first.empty() && canvas->lost_over.empty();
+  });
 }
 
 void Farm::State::fail(Job& job, std::string why, FarmTime now) {

@@ -56,7 +56,7 @@ WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
 void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
   Worker& worker = state_->workers.at(id);
   auto oldest = worker.leases.empty() ? std::nullopt : std::optional(worker.leases.begin()->second);
-  const std::size_t given_back = state_->end_leases(worker).size();
+  const std::size_t given_back = state_->end_leases(worker, now).size();
   const std::string what =
       ": " + reason + (given_back == 0 ? "" : "; " + count_of_tiles(given_back) + " given back");
   if (worker.is_stopping)
@@ -78,7 +78,7 @@ bool Farm::drain(std::string_view name, FarmTime now) {
   worker->is_drained = true;
   state_->drained_names.insert(worker->info.name);
   state_->record(WorkerDrained{worker->info.name, true});
-  std::vector<LeaseId> leases = state_->end_leases(*worker);
+  std::vector<LeaseId> leases = state_->end_leases(*worker, now);
   state_->tell("worker " + worker->info.name + " drained; " + count_of_tiles(leases.size()) + " given back",
                worker->info.name);
   if (!leases.empty()) worker->send(Revoke{std::move(leases)});
@@ -109,7 +109,7 @@ bool Farm::ban(std::string_view name, FarmTime now) {
     state_->record(WorkerBanned{was_here->first, true});
   }
   if (!worker) return true;
-  state_->end_leases(*worker);
+  state_->end_leases(*worker, now);
   worker->is_stopping = true;
   worker->send(Refused{words_for_banned(name)});
   state_->fill_all(now);
@@ -206,7 +206,7 @@ bool Farm::pause(JobId id, FarmTime now, std::string why) {
   Job* job = state_->living_job(id);
   if (job == nullptr) return false;
   if (job->state == JobState::paused) return true;
-  state_->revoke_everywhere(id);
+  state_->revoke_everywhere(id, now);
   state_->pause(*job, std::move(why));
   state_->fill_all(now);
   return true;
@@ -230,7 +230,7 @@ bool Farm::cancel(JobId id, FarmTime now) {
   Job* job = state_->living_job(id);
   if (job == nullptr) return false;
   state_->tell(title_of(*job) + " cancelled");
-  state_->revoke_everywhere(id);
+  state_->revoke_everywhere(id, now);
   state_->end(*job, JobState::cancelled, now);
   state_->fill_all(now);
   return true;
@@ -239,7 +239,7 @@ bool Farm::cancel(JobId id, FarmTime now) {
 bool Farm::fail(JobId id, std::string why, FarmTime now) {
   Job* job = state_->living_job(id);
   if (job == nullptr) return false;
-  state_->revoke_everywhere(id);
+  state_->revoke_everywhere(id, now);
   state_->fail(*job, std::move(why), now);
   state_->fill_all(now);
   return true;
@@ -262,7 +262,7 @@ std::vector<FarmRecord> Farm::take_records() {
     if (const auto found = state_->jobs.find(id); found != state_->jobs.end()) {
       const Job& job = found->second;
       state_->record(JobChanged{id, job.state, job.spec.priority, job.message, job.spec.key,
-                                job.tiles_given_back, job.ended});
+                                job.tiles_given_back, job.ended, job.tiles_doubled, job.time_wasted});
     }
   return std::exchange(state_->records, {});
 }

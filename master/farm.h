@@ -5,18 +5,20 @@
 //
 // A job has one frame, or those of an animation, whose scenes come one after the other.
 //
-// Invariants: each (job, frame, tile, pass) is waiting, leased to exactly one worker, or done; it is committed
-// exactly once, under a live lease. A pass that comes again is compared with what was committed, never
+// Invariants: each (job, frame, tile, pass) is waiting, leased to one worker or, near the end, to two, or done; it is
+// committed exactly once, under a live lease. A pass that comes again is compared with what was committed, never
 // written.
 //
 // Who gets what: of the jobs that have work waiting the one of highest priority, then the one submitted
 // first; of its frames the first that has work waiting, so that the last tiles of one and the first of the next
 // are rendered side by side; of its tiles those given back, then the one nearest the centre. A worker holds a
 // lease for each thread until it has delivered something, then two more, and beyond that as many as keep it
-// busy for 250 ms by its learned speed. It is sent the scene of the coming frame, too.
+// busy for 250 ms by its learned speed. It is sent the scene of the coming frame, too. When nothing waits for it, a
+// thread without work does a second time what is expected to end last, if it would be sooner (tail.h): the first result
+// counts, the other lease is revoked.
 //
 // Memory: a frame costs its scene, which frames of the same hash share; from its first assignment also 12 bytes
-// a pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 34 bytes a tile. A frame that is done,
+// a pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 42 bytes a tile. A frame that is done,
 // or whose job has ended, keeps its film, which is fetched later, and one that is done also its scene, which
 // says how the picture came about, as long as FarmLimits say. Of all workers that there were, the first 10,000 names are kept, to say whose pixels
 // they are.
@@ -102,6 +104,8 @@ struct JobView {
   FarmTime thread_time{};              // that its deliveries took, each on one thread
   std::optional<FarmTime> eta;         // remaining; none before there is something to learn from
   std::uint64_t tiles_given_back = 0;  // leases that ended without a result
+  std::uint64_t tiles_doubled = 0;     // given to a second worker near the end
+  FarmTime time_wasted{};              // of threads: on leases that ended so, and on those that came second
 };
 
 /// One of its frames.
@@ -194,6 +198,9 @@ class Farm {
   /// that every worker gave back so before anything of it was done has failed. Without one: the worker is
   /// stopping and gets nothing more; what it still holds it may finish.
   void receive(WorkerId worker, GiveBack given, FarmTime now);
+
+  /// Time goes by: to be called each 100 ms or so. Work that nobody ends is noticed by it.
+  void tick(FarmTime now);
 
   /// Throws SettingsError for settings that cannot be rendered, FarmFull, KeyTaken.
   JobId submit(JobSpec spec, FarmTime now);

@@ -52,6 +52,8 @@ struct JobChanged {
   std::string message, key;
   std::uint64_t tiles_given_back = 0;
   std::optional<FarmTime> ended;
+  std::uint64_t tiles_doubled = 0;
+  FarmTime time_wasted{};
 };
 struct SceneDropped {
   FrameId id;

@@ -38,6 +38,8 @@ struct Farm::State {
   // Exactly the jobs that want workers, the next to be served first.
   std::set<std::pair<int, JobId>> queue;  // minus priority, id
   std::uint64_t last_job = 0, last_worker = 0, last_lease = 0;
+  FarmTime next_look = FarmTime::min();   // for work that is worth doubling
+  std::set<FrameId> frames_with_victims;  // of those that are there
   std::uint64_t revision = 0;
   std::vector<FarmEvent> events;
   std::vector<FarmRecord> records;  // those of changed_jobs are still to come
@@ -81,12 +83,21 @@ struct Farm::State {
   void fill_all(FarmTime now);
   bool start(Job& job, JobFrame& frame, FarmTime now);
 
+  // The tail.
+  struct Candidates;
+  /// Gives threads that have nothing to do what is worth doing a second time; looks for it every few milliseconds only.
+  void double_stragglers(FarmTime now);
+  void add_candidates(const Worker& holder, FarmTime now, std::map<JobId, Candidates>& by_job);
+  void give_copy(Worker& holder, LeaseId original, Worker& worker, FarmTime now);
+  /// Somebody else's result was taken.
+  void end_twin(const Lease::Twin& twin, FarmTime now);
+
   // Taking it back; none of them gives it out again.
-  void end_lease(Worker& worker, LeaseId id);
+  void end_lease(Worker& worker, LeaseId id, FarmTime now);
   /// Ends all leases of a worker, returning their ids.
-  std::vector<LeaseId> end_leases(Worker& worker);
-  void revoke(Worker& worker, JobId job);
-  void revoke_everywhere(JobId job);
+  std::vector<LeaseId> end_leases(Worker& worker, FarmTime now);
+  void revoke(Worker& worker, JobId job, FarmTime now);
+  void revoke_everywhere(JobId job, FarmTime now);
 
   /// A worker that was lost may have died of the lease that it held longest.
   void blame(const Lease& oldest, NameId lost, std::uint64_t process, FarmTime now);

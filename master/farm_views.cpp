@@ -73,8 +73,9 @@ std::optional<Deliveries> Farm::deliveries(JobId id, std::optional<std::uint32_t
   const Canvas& canvas = *frame->canvas;
   Deliveries all;
   all.tiles.reserve(canvas.deliveries.size());
-  for (const auto& [by, taken] : canvas.deliveries)
-    all.tiles.push_back({by, taken, canvas.film->passes_of(static_cast<std::uint32_t>(all.tiles.size()))});
+  for (const Canvas::TileDeliveries& tile : canvas.deliveries)
+    all.tiles.push_back(
+        {tile.by, tile.taken, canvas.film->passes_of(static_cast<std::uint32_t>(all.tiles.size()))});
   for (const NameId name : canvas.deliverers)
     all.names.push_back(state_->names[static_cast<std::size_t>(name)]);
   return all;

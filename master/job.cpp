@@ -111,7 +111,8 @@ JobView view_of(const Job& job, FarmTime now) {
   view.thread_time = job.thread_time;
   if (job.started) view.elapsed = job.ended.value_or(now) - *job.started;
   if (job.state == JobState::running) view.eta = job.pace.time_for(view.pixels_total - view.pixels_done, now);
-  view.tiles_given_back = job.tiles_given_back;
+  view.tiles_given_back = job.tiles_given_back, view.tiles_doubled = job.tiles_doubled;
+  view.time_wasted = job.time_wasted;
   return view;
 }
 
@@ -161,6 +162,7 @@ void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
   for (const PassImage& image : delivery.images) {
     canvas.film->put(delivery.work.tile, image);
     tile.by[image.pass] = by;
+    tile.rays += image.counters.rays();
     frame.counters += image.counters;
     job.counters += image.counters;
   }
@@ -179,6 +181,25 @@ void lose(const Job& job, JobFrame& frame, const PassesLost& damage) {
     frame.pixels_done -= pixels_in(work, job.spec.settings);
   }
   frame.counters = frame.counters - damage.counters;
+}
+
+double expected_rays(const Job& job, const JobFrame& frame, const Work& work) {
+  const RenderSettings& settings = job.spec.settings;
+  const std::uint32_t columns = (settings.width + tile_side - 1) / tile_side;
+  const std::uint32_t rows = (settings.height + tile_side - 1) / tile_side;
+  const std::uint32_t column = work.tile % columns, row = work.tile / columns;
+  std::uint64_t rays = 0, pixels = 0;
+  for (std::uint32_t y = row - std::min(row, 1u); y <= std::min(row + 1, rows - 1); ++y)
+    for (std::uint32_t x = column - std::min(column, 1u); x <= std::min(column + 1, columns - 1); ++x) {
+      const std::uint32_t tile = y * columns + x;
+      rays += frame.canvas->deliveries[tile].rays;
+      pixels += pixels_in({tile, frame.canvas->schedule.done(tile)}, settings);
+    }
+  if (pixels == 0) rays = frame.counters.rays(), pixels = frame.pixels_done;
+  if (pixels == 0) rays = job.counters.rays(), pixels = job.pixels_done;
+  if (pixels == 0) return 0;
+  return static_cast<double>(rays) / static_cast<double>(pixels) *
+         static_cast<double>(pixels_in(work, settings));
 }
 
 std::uint64_t pixels_in(const Work& work, const RenderSettings& settings) {

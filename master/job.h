@@ -24,10 +24,11 @@ enum class NameId : std::uint32_t {};
 struct Canvas {
   explicit Canvas(Size of_film) : size(of_film), schedule(size), deliveries(tile_count(size)) {}
 
-  /// A tile's passes that are there: whom they came from, and the thread time of all of them.
+  /// A tile's passes that are there: whom they came from, and what all of them took.
   struct TileDeliveries {
     std::array<std::uint32_t, pass_count> by{};  // places in `deliverers`
     FarmTime taken{};
+    std::uint64_t rays = 0;
   };
 
   Size size;
@@ -69,7 +70,8 @@ struct Job {
   Pace pace;
   FarmTime submitted{};
   std::optional<FarmTime> started, ended;
-  std::uint64_t tiles_given_back = 0;
+  std::uint64_t tiles_given_back = 0, tiles_doubled = 0;
+  FarmTime time_wasted{};
 };
 
 /// Calls visit(hash, bytes) for the frame's scene and assets, when it has them.
@@ -117,6 +119,9 @@ struct Delivery {
 void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now);
 /// They are to be rendered again; the sums over the job's frames stay to be made.
 void lose(const Job& job, JobFrame& frame, const PassesLost& damage);
+/// The rays that it will take, as far as its own tile's coarser passes and the tiles around it tell; else the frame, else
+/// the job's other frames. 0: nothing tells.
+double expected_rays(const Job& job, const JobFrame& frame, const Work& work);
 /// The pixels that one work brings.
 std::uint64_t pixels_in(const Work& work, const RenderSettings& settings);
 /// Who delivered other pixels than these, if anybody did. Passes not there yet are not compared.

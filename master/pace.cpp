@@ -16,12 +16,12 @@ double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).co
 
 }  // namespace
 
-void Speed::add(std::uint64_t samples, FarmTime taken) {
-  const double amount = static_cast<double>(samples);
+void Speed::add(std::uint64_t added, FarmTime taken) {
+  const double amount = static_cast<double>(added);
   double seconds = seconds_of(std::max<FarmTime>(taken, shortest_delivery));
-  if (const double known = samples_per_second(); known > 0)
+  if (const double known = per_second(); known > 0)
     seconds = std::clamp(seconds, amount / known / most_surprise, amount / known * most_surprise);
-  samples_ = memory * samples_ + amount;
+  amount_ = memory * amount_ + amount;
   seconds_ = memory * seconds_ + seconds;
 }
 

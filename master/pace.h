@@ -8,16 +8,16 @@
 
 namespace rayfarm {
 
-/// Samples a second of one thread, over the last ten or so deliveries. Weighted by time: a delivery counts
+/// Samples or rays a second of one thread, over the last ten or so deliveries. Weighted by time: a delivery counts
 /// for as much as it took, so that the noise of tiny tiles does not.
 class Speed {
  public:
-  void add(std::uint64_t samples, FarmTime taken);
+  void add(std::uint64_t amount, FarmTime taken);
   /// 0: nothing learned yet.
-  double samples_per_second() const { return seconds_ > 0 ? samples_ / seconds_ : 0; }
+  double per_second() const { return seconds_ > 0 ? amount_ / seconds_ : 0; }
 
  private:
-  double samples_ = 0, seconds_ = 0;  // of all deliveries, each later one shrinking the earlier
+  double amount_ = 0, seconds_ = 0;  // of all deliveries, each later one shrinking the earlier
 };
 
 /// Pixels a second of a job, over the last ten seconds or ten deliveries, whichever is longer.

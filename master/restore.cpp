@@ -33,6 +33,7 @@ void put_name(Canvas& canvas, const TileCommitted& commit, NameId name) {
   for (int pass = 0; pass < pass_count; ++pass)
     if (commit.passes >> pass & 1) tile.by[pass] = place;
   tile.taken += commit.taken;
+  tile.rays += commit.counters.rays();
 }
 
 /// The sums over its frames.
@@ -145,7 +146,8 @@ void Farm::State::restore(FarmRecord record) {
             Job& job = found->second;
             job.state = changed.state, job.spec.priority = changed.priority;
             job.message = std::move(changed.message), job.spec.key = std::move(changed.key);
-            job.tiles_given_back = changed.tiles_given_back, job.ended = changed.ended;
+            job.tiles_given_back = changed.tiles_given_back, job.tiles_doubled = changed.tiles_doubled;
+            job.time_wasted = changed.time_wasted, job.ended = changed.ended;
           },
           [&](const SceneDropped& dropped) {
             frame_at(dropped.id, [](Job&, JobFrame& frame) { drop_data(frame); });

@@ -47,18 +47,21 @@ void Farm::receive(WorkerId id, Result result, FarmTime now) {
 
   const Lease lease = worker.leases.at(result.lease);
   if (const auto fault = lease_fault_of(result, lease, state_->jobs.at(lease.job))) {
-    state_->end_lease(worker, result.lease);
+    state_->end_lease(worker, result.lease, now);
     tell_off(result, *fault);
   }
-  take_lease(worker, result.lease);
+  take_lease(worker, result.lease, now);
+  if (lease.twin) state_->end_twin(*lease.twin, now);
   state_->deliver(worker, lease, std::move(result), now);
   state_->fill(worker, now);
+  if (lease.twin) state_->fill(state_->workers.at(lease.twin->worker), now);
 }
 
 void Farm::State::deliver(Worker& worker, const Lease& lease, Result result, FarmTime now) {
   Job& job = jobs.at(lease.job);
   JobFrame& frame = frame_at(job, lease.frame);
   const FarmTime taken = believed_time(lease, result.seconds, now);
+  const std::uint64_t rays = counters_of(result.images).rays();
   commit(job, frame, {lease.work, result.images, worker.name, taken}, now);
   record(TileCommitted{{job.id, frame.number},
                        lease.work.tile,
@@ -68,7 +71,7 @@ void Farm::State::deliver(Worker& worker, const Lease& lease, Result result, Far
                        now,
                        counters_of(result.images),
                        std::move(result.images)});
-  learn_speed(worker, lease, taken);
+  learn_speed(worker, lease, rays, taken);
   ++worker.tiles;
   worker.pixels += lease.samples / job.spec.settings.spp;
   ++revision;
@@ -116,7 +119,7 @@ void Farm::receive(WorkerId id, GiveBack given, FarmTime now) {
     const auto held = worker.leases.find(lease);
     if (held == worker.leases.end()) continue;  // revoked meanwhile
     ++tiles[held->second.job];
-    state_->end_lease(worker, lease);
+    state_->end_lease(worker, lease, now);
   }
   const bool is_refusal = !given.reason.empty();
   if (!is_refusal) worker.is_stopping = true;
@@ -134,7 +137,7 @@ void Farm::State::refuse(Worker& worker, Job& job, const std::string& reason, Fa
   worker.jobs.at(job.id).is_refused = true;
   job.message = "worker " + worker.info.name + ": " + reason;
   touch(job);
-  revoke(worker, job.id);
+  revoke(worker, job.id, now);
   const bool somebody_can = std::ranges::any_of(
       workers, [&](const auto& w) { return !w.second.is_stopping && !refuses(w.second, job.id); });
   if (somebody_can || job.pixels_done > 0) return;

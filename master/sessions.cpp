@@ -15,6 +15,8 @@ namespace {
 
 using asio::ip::tcp;
 
+constexpr std::chrono::milliseconds between_ticks{100};
+
 /// Of ADDRESS:PORT.
 std::string without_port(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
 
@@ -61,7 +63,7 @@ Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, 
 
 Sessions::~Sessions() = default;
 
-asio::awaitable<void> Sessions::run() { return until_first_ends(accept_all(), wait_until_stopped()); }
+asio::awaitable<void> Sessions::run() { return until_first_ends(accept_all(), tick(), wait_until_stopped()); }
 
 void Sessions::stop() {
   stopping_ = true;
@@ -85,6 +87,16 @@ asio::awaitable<void> Sessions::accept_all() {
   for (;;) {
     tcp::socket socket = co_await accept(acceptor_);
     asio::co_spawn(io_, serve_stranger(std::move(socket)), asio::detached);
+  }
+}
+
+/// The farm has no clock of its own.
+asio::awaitable<void> Sessions::tick() {
+  asio::steady_timer timer(io_);
+  for (;;) {
+    timer.expires_after(between_ticks);
+    co_await timer.async_wait(asio::use_awaitable);
+    farm_.apply([](Farm& farm, FarmTime now) { farm.tick(now); });
   }
 }
 

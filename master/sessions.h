@@ -58,6 +58,7 @@ class Sessions {
   struct Dialled;
 
   asio::awaitable<void> accept_all();
+  asio::awaitable<void> tick();
   void expect_free(const std::string& name) const;
   asio::awaitable<void> keep_dialled(std::list<Dialled>::iterator dialled);
   asio::awaitable<std::string> try_target(const Dialled& dialled);

@@ -31,7 +31,7 @@ bool has_room_for(const Worker& worker, JobId job) {
   if (worker.leases.size() < std::size_t{threads} + (is_new ? 0 : spare_leases)) return true;
   const auto known = worker.jobs.find(job);
   if (known == worker.jobs.end()) return false;
-  const double samples_per_second = known->second.speed.samples_per_second() * threads;
+  const double samples_per_second = known->second.speed.per_second() * threads;
   return static_cast<double>(worker.samples_held) < seconds_of_work * samples_per_second;
 }
 
@@ -44,7 +44,7 @@ WorkerView view_of(const Worker& worker) {
                                        : WorkerState::busy;
   view.leases = static_cast<std::uint32_t>(worker.leases.size());
   view.tiles = worker.tiles, view.pixels = worker.pixels;
-  view.samples_per_second = worker.speed.samples_per_second() * worker.info.threads;
+  view.samples_per_second = worker.speed.per_second() * worker.info.threads;
   view.joined = worker.joined;
   return view;
 }
@@ -75,18 +75,24 @@ void forget_assets(Worker& worker, const std::set<std::string>& needed) {
   worker.send(std::move(end));
 }
 
-void assign(Worker& worker, LeaseId id, const Lease& lease) {
+void assign(Worker& worker, LeaseId id, Lease lease) {
+  if (worker.leases.size() < worker.info.threads) lease.begun = lease.given;
   worker.leases.emplace(id, lease);
   worker.samples_held += lease.samples;
   worker.send(Assignment{id, lease.job, lease.frame, lease.work.tile, lease.work.passes});
 }
 
-Lease take_lease(Worker& worker, LeaseId id) {
+Lease take_lease(Worker& worker, LeaseId id, FarmTime now) {
   const auto held = worker.leases.find(id);
   assert(held != worker.leases.end());
   const Lease lease = held->second;
   worker.leases.erase(held);
   worker.samples_held -= lease.samples;
+  // They are begun in the order in which they were given, and a thread is free for the next.
+  if (worker.leases.size() >= worker.info.threads) {
+    const auto last_begun = std::next(worker.leases.begin(), worker.info.threads - std::ptrdiff_t{1});
+    if (!last_begun->second.begun) last_begun->second.begun = now;
+  }
   return lease;
 }
 
@@ -96,10 +102,23 @@ FarmTime believed_time(const Lease& lease, double seconds, FarmTime now) {
   return std::chrono::duration_cast<FarmTime>(std::chrono::duration<double>(believed));
 }
 
-void learn_speed(Worker& worker, const Lease& lease, FarmTime taken) {
+void learn_speed(Worker& worker, const Lease& lease, std::uint64_t rays, FarmTime taken) {
   worker.speed.add(lease.samples, taken);
-  if (const auto known = worker.jobs.find(lease.job); known != worker.jobs.end())
-    known->second.speed.add(lease.samples, taken);
+  worker.tracing.add(rays, taken);
+  const auto known = worker.jobs.find(lease.job);
+  if (known == worker.jobs.end()) return;
+  known->second.speed.add(lease.samples, taken);
+  known->second.tracing.add(rays, taken);
+}
+
+double tracing_speed(const Worker& worker, JobId job) {
+  const auto known = worker.jobs.find(job);
+  const double of_job = known == worker.jobs.end() ? 0 : known->second.tracing.per_second();
+  return of_job > 0 ? of_job : worker.tracing.per_second();
+}
+
+FarmTime time_wasted(const Lease& lease, FarmTime now) {
+  return lease.begun ? now - *lease.begun : FarmTime{};
 }
 
 }  // namespace rayfarm

@@ -20,6 +20,13 @@ struct Lease {
   Work work;
   std::uint64_t samples = 0;
   FarmTime given{};
+  std::optional<FarmTime> begun{};  // as far as can be known from outside: it has had a thread since then
+  /// Who does the same work; the first result ends both.
+  struct Twin {
+    WorkerId worker{};
+    LeaseId lease{};
+  };
+  std::optional<Twin> twin{};
 };
 
 struct Worker {
@@ -34,7 +41,7 @@ struct Worker {
 
   /// What is known of the worker and a job that it had work of.
   struct KnownJob {
-    Speed speed;
+    Speed speed, tracing;     // of samples, and of rays
     bool is_refused = false;  // the worker cannot render it
   };
   std::map<JobId, KnownJob> jobs;
@@ -45,7 +52,7 @@ struct Worker {
   std::map<LeaseId, Lease> leases;  // held now
   std::uint64_t samples_held = 0;   // sum over leases
 
-  Speed speed;  // over all jobs
+  Speed speed, tracing;  // over all jobs
   std::uint64_t tiles = 0, pixels = 0;
 };
 
@@ -61,12 +68,16 @@ void introduce(Worker& worker, const Job& job, const JobFrame& frame);
 void forget(Worker& worker, FrameId frame);
 /// Lets the assets be forgotten that are none of these.
 void forget_assets(Worker& worker, const std::set<std::string>& needed);
-void assign(Worker& worker, LeaseId id, const Lease& lease);
+void assign(Worker& worker, LeaseId id, Lease lease);
 /// Takes a lease that the worker holds away from it, silently.
-Lease take_lease(Worker& worker, LeaseId id);
+Lease take_lease(Worker& worker, LeaseId id, FarmTime now);
 /// Of the seconds that a worker says its thread took: no thread works longer than its lease is old.
 FarmTime believed_time(const Lease& lease, double seconds, FarmTime now);
 /// What a delivery says about the worker's speed.
-void learn_speed(Worker& worker, const Lease& lease, FarmTime taken);
+void learn_speed(Worker& worker, const Lease& lease, std::uint64_t rays, FarmTime taken);
+/// Rays a second of one of its threads, with this job if that is known; 0: not known.
+double tracing_speed(const Worker& worker, JobId job);
+/// How long a thread was busy with a lease that ended without being of use.
+FarmTime time_wasted(const Lease& lease, FarmTime now);
 
 }  // namespace rayfarm

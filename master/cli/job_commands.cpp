@@ -74,6 +74,7 @@ ExitCode show_job(const JobArguments& a) {
   }
   const json &settings = job.at("settings"), &counters = job.at("counters");
   const std::chrono::seconds elapsed(static_cast<long long>(job.at("elapsed_seconds").get<double>()));
+  const std::chrono::seconds wasted(static_cast<long long>(job.at("seconds_wasted").get<double>()));
   std::vector<std::vector<std::string>> rows{
       {"id", number_in(job, "id")},
       {"name", text_in(job, "name")},
@@ -93,6 +94,8 @@ ExitCode show_job(const JobArguments& a) {
       {"bad samples", number_in(counters, "bad_samples")},
       {"lost rays", number_in(counters, "lost")},
       {"tiles given back", number_in(job, "tiles_given_back")},
+      {"tiles rendered twice", number_in(job, "tiles_doubled")},
+      {"thread time wasted", clock_text(wasted)},
       {"output", text_in(job, "output")},
       {"scene", text_in(job, "scene_hash")},
       {"message", text_in(job, "message")},

@@ -1,6 +1,5 @@
 #include "master/cli/job_diagnostics.h"
 
-#include <array>
 #include <charconv>
 #include <cstdio>
 #include <sstream>
@@ -103,7 +102,8 @@ void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& fra
   const bool waits =
       so_far["detail"]["state"] == "making" && (wishes.whole || has_ended(get_json(job_target(job))));
   if (wishes.as_json) return print_json(waits ? whole() : so_far);
-  constexpr std::array phases{"waiting", "rendering", "threads"};
+  std::vector<const char*> phases{"waiting", "rendering", "threads"};
+  if (so_far["seconds"].contains("wasted")) phases.push_back("wasted");
   std::printf("%s\n\n%s\n%s\n", headline(so_far["pixels"].dump(), so_far["samples_per_pixel"]).c_str(),
               table_of_rays(so_far).c_str(), table_of_times(so_far["seconds"], phases).c_str());
   std::fflush(stdout);

@@ -49,6 +49,7 @@ struct RayFacts {
   std::uint64_t pixels = 0;
   RayCounters counters;
   FarmTime waited{}, elapsed{}, thread_time{};
+  std::optional<FarmTime> wasted{};  // known of jobs only
 };
 
 /// Of a frame, or of all of the job's when none is named.
@@ -60,7 +61,7 @@ RayFacts ray_facts(const FarmDoor& farm, JobId id, std::optional<std::uint32_t> 
                       frame.waited, frame.elapsed,     frame.thread_time};
     const JobView job = *f.job(id, now);
     return RayFacts{job.frames.count() == 1, job.pixels_done, job.counters, job.waited, job.elapsed,
-                    job.thread_time};
+                    job.thread_time,         job.time_wasted};
   });
 }
 
@@ -76,14 +77,15 @@ ApiResponse show_statistics(const Call& call) {
                     ? statistics_detail(call, id, frame)
                     : json{{"state", "unavailable"}, {"message", "hits are told frame by frame"}};
   const bool is_complete = detail["state"] != "making";
+  json times{{"waiting", seconds(facts.waited)},
+             {"rendering", seconds(facts.elapsed)},
+             {"threads", seconds(facts.thread_time)}};
+  if (facts.wasted) times["wasted"] = seconds(*facts.wasted);
   ApiResponse response = shown({{"counters", counters},
                                 {"mean_per_pixel", mean},
                                 {"pixels", facts.pixels},
                                 {"samples_per_pixel", static_cast<double>(facts.counters.primary) / pixels},
-                                {"seconds",
-                                 {{"waiting", seconds(facts.waited)},
-                                  {"rendering", seconds(facts.elapsed)},
-                                  {"threads", seconds(facts.thread_time)}}},
+                                {"seconds", std::move(times)},
                                 {"detail", std::move(detail)}});
   if (!is_complete) response.status = 202;
   return response;

@@ -37,7 +37,9 @@ json to_json(const JobView& job, FarmTime now) {
           {"age_seconds", seconds_of(now - job.submitted)},
           {"elapsed_seconds", seconds_of(job.elapsed)},
           {"eta_seconds", job.eta ? json(seconds_of(*job.eta)) : json()},
-          {"tiles_given_back", job.tiles_given_back}};
+          {"tiles_given_back", job.tiles_given_back},
+          {"tiles_doubled", job.tiles_doubled},
+          {"seconds_wasted", seconds_of(job.time_wasted)}};
 }
 
 json to_json(const FrameView& frame) {

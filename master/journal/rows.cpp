@@ -101,6 +101,17 @@ void serialize(Archive& archive, ChangeRow& row) {
   time(archive, change.ended);
 }
 
+/// Follows a ChangeRow; those that were written by the first versions of rayfarm have none.
+struct WasteRow {
+  std::uint64_t tiles_doubled = 0;
+  FarmTime time_wasted{};
+};
+template <class Archive>
+void serialize(Archive& archive, WasteRow& row) {
+  archive(row.tiles_doubled);
+  time(archive, row.time_wasted);
+}
+
 struct DroppedRow {
   PictureDropped dropped;
 };
@@ -142,7 +153,11 @@ std::optional<ByteView> unseal(ByteView sealed, const RowKey& key) {
 }
 
 Bytes encode_row(const JobAdded& job) { return encoded(JobRow{job}); }
-Bytes encode_row(const JobChanged& job) { return encoded(ChangeRow{job}); }
+Bytes encode_row(const JobChanged& job) {
+  Bytes bytes = encoded(ChangeRow{job});
+  encode_to(bytes, WasteRow{job.tiles_doubled, job.time_wasted});
+  return bytes;
+}
 Bytes encode_row(const FrameRow& frame) { return encoded(frame); }
 Bytes encode_row(const PictureDropped& dropped) { return encoded(DroppedRow{dropped}); }
 
@@ -152,8 +167,12 @@ JobAdded decode_job(JobId id, ByteView bytes) {
   return job;
 }
 JobChanged decode_change(JobId id, ByteView bytes) {
-  JobChanged change = decoded<ChangeRow>(bytes).change;
+  ByteSource source(bytes);
+  JobChanged change = decode_from<ChangeRow>(source).change;
   change.id = id;
+  if (source.rest().empty()) return change;
+  const WasteRow waste = decode_from<WasteRow>(source);
+  change.tiles_doubled = waste.tiles_doubled, change.time_wasted = waste.time_wasted;
   return change;
 }
 FrameRow decode_frame(ByteView bytes) { return decoded<FrameRow>(bytes); }

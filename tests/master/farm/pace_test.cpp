@@ -9,33 +9,33 @@ using namespace std::chrono_literals;
 
 double seconds(FarmTime time) { return std::chrono::duration<double>(time).count(); }
 
-TEST(Speed, IsUnknownBeforeTheFirstDelivery) { EXPECT_EQ(Speed().samples_per_second(), 0); }
+TEST(Speed, IsUnknownBeforeTheFirstDelivery) { EXPECT_EQ(Speed().per_second(), 0); }
 
 TEST(Speed, IsTheRateOfASteadyWorker) {
   Speed speed;
   for (int i = 0; i < 50; ++i) speed.add(1000, 20ms);
-  EXPECT_NEAR(speed.samples_per_second(), 50'000, 1);
+  EXPECT_NEAR(speed.per_second(), 50'000, 1);
 }
 
 TEST(Speed, FollowsAChangeWithinThirtyDeliveries) {
   Speed speed;
   for (int i = 0; i < 100; ++i) speed.add(1000, 20ms);
   for (int i = 0; i < 30; ++i) speed.add(1000, 200ms);
-  EXPECT_NEAR(speed.samples_per_second(), 5'000, 250);
+  EXPECT_NEAR(speed.per_second(), 5'000, 250);
 }
 
 TEST(Speed, SurvivesOneDeliveryOfAPcThatSlept) {
   Speed speed;
   for (int i = 0; i < 20; ++i) speed.add(1000, 20ms);
   speed.add(1000, 1h);
-  EXPECT_GT(speed.samples_per_second(), 20'000);
+  EXPECT_GT(speed.per_second(), 20'000);
 }
 
 TEST(Speed, IsHardlyMovedByOneTinyFastDelivery) {
   Speed speed;
   for (int i = 0; i < 20; ++i) speed.add(1000, 20ms);
   speed.add(10, 0ns);
-  EXPECT_NEAR(speed.samples_per_second(), 50'000, 500);
+  EXPECT_NEAR(speed.per_second(), 50'000, 500);
 }
 
 TEST(Pace, IsUnknownBeforeTheFirstPixel) {

@@ -60,6 +60,8 @@ export interface Job {
   elapsed_seconds: number;
   eta_seconds: number | null;
   tiles_given_back: number;
+  tiles_doubled: number;
+  seconds_wasted: number;
 }
 
 export interface Worker {

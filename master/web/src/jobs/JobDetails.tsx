@@ -96,6 +96,20 @@ function Progress({ job }: { job: Job }) {
           </span>
         </Row>
       )}
+      {job.tiles_doubled > 0 && (
+        <Row name="Doubled">
+          <span title="Near the end, idle workers render again what others are slow with; the first result is taken">
+            {many(job.tiles_doubled, "tile")}
+          </span>
+        </Row>
+      )}
+      {job.seconds_wasted > 0 && (
+        <Row name="Wasted">
+          <span title="What threads spent on tiles that were given back, or that another worker had sooner">
+            {duration(job.seconds_wasted)} of threads
+          </span>
+        </Row>
+      )}
       {job.output && <Row name="Output">{job.output}</Row>}
       <Row name="Scene">
         <code title={job.scene_hash}>{job.scene_hash.slice(0, 12)}</code>

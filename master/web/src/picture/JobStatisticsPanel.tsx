@@ -108,6 +108,8 @@ function Detail({ statistics }: { statistics: JobStatistics }) {
   );
 }
 
+const phaseNames: Record<string, string> = { threads: "on all threads", wasted: "in vain" };
+
 /// What the job cost, counted exactly; asked for on demand.
 export function JobStatisticsPanel() {
   const job = selectedJob.value;
@@ -131,7 +133,7 @@ export function JobStatisticsPanel() {
               </tr>
               {Object.entries(statistics.seconds).map(([phase, seconds]) => (
                 <tr key={phase}>
-                  <th scope="row">{phase === "threads" ? "on all threads" : phase}</th>
+                  <th scope="row">{phaseNames[phase] ?? phase}</th>
                   <td>{duration(seconds)}</td>
                 </tr>
               ))}

@@ -1,0 +1,66 @@
+#include "master/tail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <queue>
+
+namespace rayfarm {
+namespace {
+
+constexpr double seconds_of_unknown = 0.5;
+
+template <class Value>
+std::vector<std::size_t> greatest_first(std::span<const Value> values, double Value::*key) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return values[i].*key; });
+  return order;
+}
+
+}  // namespace
+
+double expected_seconds(double cost, double speed) {
+  return cost > 0 && speed > 0 ? cost / speed : seconds_of_unknown;
+}
+
+std::vector<double> times_left(std::span<const HeldWork> held, std::uint32_t threads) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
+  std::vector<double> left;
+  for (const HeldWork& work : held) {
+    if (work.spent) {
+      left.push_back(std::abs(work.expected - *work.spent));
+    } else {
+      const bool is_thread_free = free_at.size() < threads;
+      left.push_back((is_thread_free ? 0 : free_at.top()) + work.expected);
+      if (!is_thread_free) free_at.pop();
+    }
+    free_at.push(left.back());
+  }
+  return left;
+}
+
+std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<const IdleWorker> idle) {
+  const std::vector<std::size_t> fastest = greatest_first(idle, &IdleWorker::speed);
+  std::vector<std::uint32_t> threads;
+  for (const IdleWorker& worker : idle) threads.push_back(worker.threads);
+  std::size_t first = 0;  // in `fastest`: those before have no thread free
+  std::vector<Copy> copies;
+  for (const std::size_t s : greatest_first(stragglers, &Straggler::time_left)) {
+    while (first < fastest.size() && threads[fastest[first]] == 0) ++first;
+    if (first == fastest.size()) break;
+    for (std::size_t i = first; i < fastest.size(); ++i) {
+      const std::size_t w = fastest[i];
+      if (threads[w] == 0 || idle[w].id == stragglers[s].holder) continue;
+      if (expected_seconds(stragglers[s].cost, idle[w].speed) < stragglers[s].time_left) {
+        copies.push_back({s, w});
+        --threads[w];
+      }
+      break;  // the others are no faster
+    }
+  }
+  return copies;
+}
+
+}  // namespace rayfarm

@@ -1,0 +1,48 @@
+// The tail: when no work waits any more, what others are expected to be slowest with is done a second time by threads
+// that would idle; whose result comes first is taken.
+//
+// Source: J. Dean, S. Ghemawat, MapReduce: Simplified Data Processing on Large Clusters, OSDI 2004, section 3.6 (backup
+// tasks); M. Zaharia et al., Improving MapReduce Performance in Heterogeneous Environments, OSDI 2008 (the one that is
+// expected to end last goes first).
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rayfarm {
+
+/// Seconds that one thread takes for the cost in rays at a speed in rays a second; half a second when either is 0, which
+/// stands for unknown.
+double expected_seconds(double cost, double speed);
+
+/// Work that a worker holds.
+struct HeldWork {
+  double expected = 0;            // seconds of one of its threads
+  std::optional<double> spent{};  // seconds since it was begun; none: it waits for a thread
+};
+/// Seconds until each is there. `held` is in the order in which it is begun, on so many threads, at least 1. What is
+/// late by some time is expected to be late by as much again.
+std::vector<double> times_left(std::span<const HeldWork> held, std::uint32_t threads);
+
+/// Work of one job that one worker holds, and no other.
+struct Straggler {
+  std::uint64_t holder = 0;
+  double time_left = 0;  // seconds
+  double cost = 0;       // rays; 0: unknown
+};
+struct IdleWorker {
+  std::uint64_t id = 0;
+  double speed = 0;           // rays a second of one thread; 0: unknown
+  std::uint32_t threads = 0;  // that have nothing to do
+};
+/// Who does what again, by their places in the lists.
+struct Copy {
+  std::size_t straggler = 0, worker = 0;
+  bool operator==(const Copy&) const = default;
+};
+/// What ends last first, by the fastest that has a thread free and would be sooner; never by its holder. O(n log n).
+std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<const IdleWorker> idle);
+
+}  // namespace rayfarm
