@@ -37,18 +37,21 @@ bool Farm::State::give_one(Worker& worker, FarmTime now) {
   Schedule& schedule = frame.canvas->schedule;
   const std::optional<Work> work =
       worker.info.kind == WorkerKind::local ? schedule.take_pass() : schedule.take_tile();
-  if (!schedule.has_waiting()) {
-    job->open.erase(place);
-    update_queue(*job);
-  }
-  introduce(worker, *job, frame);
-  const Lease lease{job->id, frame.number, work.value(),
-                    pixels_in(*work, job->spec.settings) * job->spec.settings.spp, now};
-  assign(worker, LeaseId{++last_lease}, lease);
+  give(worker, *job, frame, work.value(), now);
   // The coming frame's scene travels while this one is rendered.
   if (place + 1 < job->frames.size() && !job->frames[place + 1].ended)
     introduce(worker, *job, job->frames[place + 1]);
   return true;
+}
+
+void Farm::State::give(Worker& worker, Job& job, JobFrame& frame, const Work& work, FarmTime now) {
+  if (!frame.canvas->schedule.has_waiting()) {
+    job.open.erase(job.spec.frames->index_of(frame.number).value());
+    update_queue(job);
+  }
+  introduce(worker, job, frame);
+  const std::uint64_t samples = pixels_in(work, job.spec.settings) * job.spec.settings.spp;
+  assign(worker, LeaseId{++last_lease}, {job.id, frame.number, work, samples, now});
 }
 
 void Farm::State::fill(Worker& worker, FarmTime now) {

@@ -61,8 +61,8 @@ void Farm::State::add_candidates(const Worker& holder, FarmTime now, std::map<Jo
   for (const auto& [id, lease] : holder.leases) {
     const Job& job = jobs.at(lease.job);
     costs.push_back(expected_rays(job, *frame_of(job, lease.frame), lease.work));
-    HeldWork& work = held.emplace_back(expected_seconds(costs.back(), speed_with(job, holder)));
-    if (lease.begun) work.spent = seconds_of(now - *lease.begun);
+    held.push_back({expected_seconds(costs.back(), speed_with(job, holder))});
+    if (lease.begun) held.back().spent = seconds_of(now - *lease.begun);
   }
   const std::vector<double> left = times_left(held, holder.info.threads);
   std::size_t place = 0;

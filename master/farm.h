@@ -188,7 +188,7 @@ class Farm {
   /// Sends Welcome with the worker's name (made unique: the second "pc" is "pc-2"; a name is free again when
   /// its worker is removed), then work. A drained name stays drained until undrain().
   WorkerId add_worker(WorkerInfo info, Send send, FarmTime now);
-  // The worker of the next three must be here: added, not removed.
+  // The worker of the next four must be here: added, not removed.
   /// Its leases go to the others, first of all. The reason is for people.
   void remove_worker(WorkerId worker, std::string reason, FarmTime now);
   /// Throws WorkerError if the result is not what its lease asked for. A result that comes after its lease
@@ -198,6 +198,10 @@ class Farm {
   /// that every worker gave back so before anything of it was done has failed. Without one: the worker is
   /// stopping and gets nothing more; what it still holds it may finish.
   void receive(WorkerId worker, GiveBack given, FarmTime now);
+
+  /// What of this is still to be done, it is asked to do; what others are asked already too, if it has finished it.
+  /// The rest it is told to forget.
+  void receive(WorkerId worker, const Holds& holds, FarmTime now);
 
   /// Time goes by: to be called each 100 ms or so. Work that nobody ends is noticed by it.
   void tick(FarmTime now);

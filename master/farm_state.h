@@ -79,6 +79,8 @@ struct Farm::State {
   Job* next_job_for(const Worker& worker);
   /// False when the worker has enough or there is nothing for it; else ask again.
   bool give_one(Worker& worker, FarmTime now);
+  /// Work that was just taken from the frame's schedule.
+  void give(Worker& worker, Job& job, JobFrame& frame, const Work& work, FarmTime now);
   void fill(Worker& worker, FarmTime now);
   void fill_all(FarmTime now);
   bool start(Job& job, JobFrame& frame, FarmTime now);
@@ -91,6 +93,9 @@ struct Farm::State {
   void give_copy(Worker& holder, LeaseId original, Worker& worker, FarmTime now);
   /// Somebody else's result was taken.
   void end_twin(const Lease::Twin& twin, FarmTime now);
+
+  /// Gives the worker again what it has. False: it is not needed, or not from this worker.
+  bool reattach(Worker& worker, const HeldTile& held, FarmTime now);
 
   // Taking it back; none of them gives it out again.
   void end_lease(Worker& worker, LeaseId id, FarmTime now);

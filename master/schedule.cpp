@@ -24,10 +24,10 @@ Schedule::Schedule(Size film)
 
 std::optional<Work> Schedule::take_pass() {
   for (int pass = 0; pass < pass_count; ++pass) {
-    if (!given_back_[pass].empty()) return take(*given_back_[pass].begin(), bit(pass));
+    if (!given_back_[pass].empty()) return take_at(*given_back_[pass].begin(), bit(pass));
     Rank& first = first_with_pass_[pass];
     while (first < order_.size() && !(waiting_[order_[first]] & bit(pass))) ++first;
-    if (first < order_.size()) return take(first, bit(pass));
+    if (first < order_.size()) return take_at(first, bit(pass));
   }
   return std::nullopt;
 }
@@ -36,14 +36,16 @@ std::optional<Work> Schedule::take_tile() {
   std::optional<Rank> nearest;
   for (const std::set<Rank>& ranks : given_back_)
     if (!ranks.empty()) nearest = std::min(nearest.value_or(*ranks.begin()), *ranks.begin());
-  if (nearest) return take(*nearest, waiting_[order_[*nearest]]);
+  if (nearest) return take_at(*nearest, waiting_[order_[*nearest]]);
 
   while (first_with_any_ < order_.size() && !waiting_[order_[first_with_any_]]) ++first_with_any_;
   if (first_with_any_ == order_.size()) return std::nullopt;
-  return take(first_with_any_, waiting_[order_[first_with_any_]]);
+  return take_at(first_with_any_, waiting_[order_[first_with_any_]]);
 }
 
-Work Schedule::take(Rank rank, PassSet passes) {
+void Schedule::take(const Work& work) { take_at(rank_[work.tile], work.passes); }
+
+Work Schedule::take_at(Rank rank, PassSet passes) {
   const Work work{order_[rank], passes};
   assert((waiting_[work.tile] & passes) == passes);
   waiting_[work.tile] &= ~passes;

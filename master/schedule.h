@@ -31,6 +31,9 @@ class Schedule {
   /// For a remote worker: all passes waiting in one tile; a tile given back, else the one nearest the centre.
   std::optional<Work> take_tile();
 
+  /// Passes that are waiting, whichever would be next.
+  void take(const Work& work);
+
   // Both want passes that are leased.
   void give_back(const Work& work);
   void finish(const Work& work);
@@ -48,7 +51,7 @@ class Schedule {
  private:
   using Rank = std::uint32_t;  // place in the centre-first order
 
-  Work take(Rank rank, PassSet passes);
+  Work take_at(Rank rank, PassSet passes);
 
   std::vector<std::uint32_t> order_;  // tile by rank
   std::vector<Rank> rank_;            // rank by tile

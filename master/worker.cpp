@@ -24,6 +24,10 @@ bool refuses(const Worker& worker, JobId job) {
   return known != worker.jobs.end() && known->second.is_refused;
 }
 
+bool may_be_given(const Worker& worker, JobId job) {
+  return may_work(worker) && !refuses(worker, job) && worker.leases.size() < most_leases;
+}
+
 bool has_room_for(const Worker& worker, JobId job) {
   const std::uint32_t threads = worker.info.threads;
   if (worker.leases.size() >= most_leases) return false;

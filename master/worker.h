@@ -58,6 +58,8 @@ struct Worker {
 
 bool may_work(const Worker& worker);
 bool refuses(const Worker& worker, JobId job);
+/// Also when it has no room.
+bool may_be_given(const Worker& worker, JobId job);
 /// Whether a lease of this job would keep it busier, not just make its queue longer.
 bool has_room_for(const Worker& worker, JobId job);
 WorkerView view_of(const Worker& worker);

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include <asio/post.hpp>
 #include <asio/redirect_error.hpp>
 
@@ -81,6 +83,7 @@ void WorkerSession::handle(const ToWorker& message) {
     welcomed_ = true;
     spdlog::info("connected to the master at {}, as \"{}\", {}", peer(), welcome->name,
                  connection_.channel().is_encrypted() ? "encrypted" : "plaintext");
+    offer_kept(welcome->versions);
   } else if (!welcomed_) {
     throw CodecError("the master gave work before it said welcome");
   } else if (const auto* assignment = std::get_if<Assignment>(&message)) {
@@ -102,7 +105,18 @@ void WorkerSession::handle(const ToWorker& message) {
     crew_.take(*asset);
   } else if (const auto* dropped = std::get_if<AssetEnd>(&message)) {
     crew_.take(*dropped);
+  } else if (const auto* unneeded = std::get_if<Unneeded>(&message)) {
+    crew_.take(*unneeded);
   }
+}
+
+void WorkerSession::offer_kept(const Versions& spoken) {
+  if (!(spoken.capabilities & can_reattach)) return crew_.forget_kept();
+  std::vector<HeldTile> kept = crew_.kept();
+  if (kept.empty()) return;
+  const auto finished = std::ranges::count(kept, true, &HeldTile::is_finished);
+  spdlog::info("{} tiles are still here, {} of them finished", kept.size(), finished);
+  connection_.post(Holds{std::move(kept)});
 }
 
 void WorkerSession::answer(const ToMaster& message) {

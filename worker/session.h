@@ -41,6 +41,7 @@ class WorkerSession : public std::enable_shared_from_this<WorkerSession> {
   asio::awaitable<void> converse();
   asio::awaitable<void> wait_for_end_of_patience();
   void handle(const ToWorker& message);
+  void offer_kept(const Versions& spoken);
   void answer(const ToMaster& message);
   void leave_when_done();
   void leave();

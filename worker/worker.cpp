@@ -132,7 +132,10 @@ asio::awaitable<void> Worker::talk(Channel channel) {
   }
   if (!loss.empty() && !stopping_)
     report("no longer connected to the master at " + session->peer() + ": " + loss);
-  crew_.abandon();
+  if (stopping_)
+    crew_.abandon();
+  else
+    crew_.lose_master();
   session_.reset();
   ended_.cancel();
 }

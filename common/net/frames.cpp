@@ -31,6 +31,10 @@ template <>
 constexpr std::uint32_t payload_limit<GiveBack> = 1u << 20;  // 130,000 leases
 template <>
 constexpr std::uint32_t payload_limit<Revoke> = 1u << 20;
+template <>
+constexpr std::uint32_t payload_limit<Holds> = 1u << 20;  // 40,000 tiles
+template <>
+constexpr std::uint32_t payload_limit<Unneeded> = 1u << 20;
 
 template <class Variant>
 struct FrameTypes;

@@ -58,7 +58,7 @@ void serialize(Archive& archive, Hello& m) {
   text(archive, m.cpu, max_name);
   archive(m.threads);
   if (m.versions.newest < 4) {
-    m.versions.oldest = m.versions.newest;
+    m.versions.oldest = m.versions.newest, m.versions.capabilities = 0;
     return;
   }
   archive(m.versions.oldest, m.versions.capabilities);
@@ -121,6 +121,19 @@ void serialize(Archive& archive, Assignment& m) {
   archive(m.lease, m.job, m.frame, m.tile, m.passes);
   if (m.passes == 0 || m.passes > all_passes)
     throw CodecError("an assignment names no pass, or one that does not exist");
+}
+template <class Archive>
+void serialize(Archive& archive, HeldTile& t) {
+  archive(t.work);
+  boolean(archive, t.is_finished);
+}
+template <class Archive>
+void serialize(Archive& archive, Holds& m) {
+  archive(m.tiles);
+}
+template <class Archive>
+void serialize(Archive& archive, Unneeded& m) {
+  archive(m.leases);
 }
 template <class Archive>
 void serialize(Archive& archive, Revoke& m) {

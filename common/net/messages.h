@@ -13,6 +13,10 @@
 //   master -> worker  Revoke        stop these leases now; nothing is answered for them
 //   master -> worker  FrameEnd      forget the frame, and its scene when no other frame of it is left
 //   master -> worker  AssetEnd      forget these assets: no job that goes on has them
+//   worker -> master  Holds         after Welcome, when both can re-attach: what it has of conversations that were cut off,
+//                                   rendered or being rendered, by the leases of then
+//   master -> worker  Assignment    for what of that is still to be done: the worker goes on with it
+//   master -> worker  Unneeded      the rest, by its old leases: forget it
 //   both              Heartbeat     each 0.5 s while nothing else is said; 2 s of silence end the connection
 //   both              Goodbye       a clean end, with the reason
 // A PC becomes a worker over an encrypted connection on which it has shown no certificate:
@@ -56,11 +60,13 @@ struct FrameId {
   auto operator<=>(const FrameId&) const = default;
 };
 
+// What one may know and another not: a bit each.
+constexpr std::uint64_t can_reattach = 1;  // Holds, Unneeded
+
 /// What a side speaks. Both use the newest protocol, and the capabilities, that they have in common.
 struct Versions {
   std::uint16_t newest = protocol_version, oldest = oldest_protocol_version;
-  std::uint64_t capabilities =
-      0;  // a bit for each thing that one may know and another not; none is given yet
+  std::uint64_t capabilities = can_reattach;
   bool operator==(const Versions&) const = default;
 };
 /// None when there is no protocol that both speak.
@@ -137,6 +143,20 @@ struct Result {
   double seconds = 0;  // of one thread, wall time
   bool operator==(const Result&) const = default;
 };
+/// Work of a lease that ended with its conversation.
+struct HeldTile {
+  Assignment work;
+  bool is_finished = false;
+  bool operator==(const HeldTile&) const = default;
+};
+struct Holds {
+  std::vector<HeldTile> tiles;
+  bool operator==(const Holds&) const = default;
+};
+struct Unneeded {
+  std::vector<LeaseId> leases;
+  bool operator==(const Unneeded&) const = default;
+};
 struct GiveBack {
   std::vector<LeaseId> leases;
   std::string reason;  // why it cannot render the jobs of these leases; empty: it is stopping
@@ -161,7 +181,7 @@ struct Goodbye {
 
 // The place in the list is a message's number on the wire: new ones come at the end.
 using ToWorker = std::variant<Welcome, Refused, SceneData, FrameStart, Assignment, Revoke, FrameEnd,
-                              Heartbeat, Goodbye, AssetData, AssetEnd, Paired>;
-using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye, Join>;
+                              Heartbeat, Goodbye, AssetData, AssetEnd, Paired, Unneeded>;
+using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye, Join, Holds>;
 
 }  // namespace rayfarm

@@ -12,6 +12,9 @@ namespace {
 
 FrameId frame_of(const Assignment& assignment) { return {assignment.job, assignment.frame}; }
 
+constexpr std::size_t most_kept = 2048;    // 49 kB each
+constexpr std::size_t most_answered = 64;  // of a burst that the master had not taken when it was lost
+
 /// Empty unless the assignment cannot be rendered.
 std::string fault_of(const Assignment& assignment, const RenderSettings& settings) {
   const std::uint32_t tiles = tile_count({settings.width, settings.height});
@@ -26,9 +29,8 @@ Crew::Crew(unsigned threads, PrepareScene prepare) : prepare_(std::move(prepare)
 }
 
 Crew::~Crew() {
+  abandon();
   const Lock lock(mutex_);
-  drop_waiting();
-  stop_running();
   ending_ = true;
   changed_.notify_all();
 }
@@ -37,8 +39,7 @@ Crew::~Crew() {
 
 void Crew::begin(Answer answer) {
   const Lock lock(mutex_);
-  drop_waiting();
-  stop_running();
+  keep_all();
   frames_.clear();
   for (auto& [hash, scene] : scenes_) discard(std::move(scene));
   for (auto& [hash, asset] : assets_) discard(std::move(asset));
@@ -46,6 +47,23 @@ void Crew::begin(Answer answer) {
   assets_.clear();
   taking_ = true;
   answer_ = std::move(answer);
+}
+
+void Crew::lose_master() {
+  const Lock lock(mutex_);
+  keep_all();
+}
+
+std::vector<HeldTile> Crew::kept() {
+  const Lock lock(mutex_);
+  std::vector<HeldTile> held;
+  for (const TaskPtr& task : kept_) held.push_back({task->assignment, task->progress == Progress::finished});
+  return held;
+}
+
+void Crew::forget_kept() {
+  const Lock lock(mutex_);
+  drop_kept();
 }
 
 void Crew::take(const AssetData& asset) {
@@ -64,8 +82,11 @@ void Crew::take(const AssetEnd& end) {
 
 void Crew::take(const SceneData& scene) {
   const Lock lock(mutex_);
-  if (!scenes_.contains(scene.hash))
-    scenes_.emplace(scene.hash, std::make_shared<SceneState>(SceneState{scene, {}, {}, {}}));
+  if (scenes_.contains(scene.hash)) return;
+  const auto is_it = [&](const TaskPtr& task) { return task->frame->scene->data.hash == scene.hash; };
+  const auto kept = std::ranges::find_if(kept_, is_it);
+  scenes_[scene.hash] = kept != kept_.end() ? (*kept)->frame->scene
+                                            : std::make_shared<SceneState>(SceneState{scene, {}, {}, {}});
 }
 
 void Crew::take(const FrameStart& start) {
@@ -77,8 +98,8 @@ void Crew::take(const FrameStart& start) {
   Assets assets;
   for (const std::string& hash : start.assets)
     if (const auto asset = assets_.find(hash); asset != assets_.end()) assets.push_back(asset->second);
-  frames_.insert_or_assign({start.job, start.settings.frame},
-                           Frame{start.settings, std::move(scene), std::move(assets)});
+  frames_[{start.job, start.settings.frame}] =
+      std::make_shared<const Frame>(Frame{start.settings, std::move(scene), std::move(assets)});
 }
 
 void Crew::take(const Assignment& assignment) {
@@ -86,47 +107,80 @@ void Crew::take(const Assignment& assignment) {
   if (!taking_) return give_back(assignment.lease, "");
   const auto frame = frames_.find(frame_of(assignment));
   if (frame == frames_.end()) return give_back(assignment.lease, "its job was never started");
-  if (std::string fault = fault_of(assignment, frame->second.settings); !fault.empty())
+  if (std::string fault = fault_of(assignment, frame->second->settings); !fault.empty())
     return give_back(assignment.lease, std::move(fault));
-  waiting_.push_back(assignment);
+  if (const TaskPtr task = take_kept(assignment, *frame->second)) {
+    task->assignment = assignment, task->frame = frame->second, task->is_kept = false;
+    tasks_[assignment.lease] = task;
+    if (task->progress == Progress::finished) finish(task);
+    return;
+  }
+  tasks_[assignment.lease] = waiting_.emplace_back(std::make_shared<Task>(assignment, frame->second));
   changed_.notify_one();
 }
 
 void Crew::take(const Revoke& revoke) {
   const Lock lock(mutex_);
   for (const LeaseId lease : revoke.leases) {
-    std::erase_if(waiting_, [&](const Assignment& a) { return a.lease == lease; });
-    const auto running = running_.find(lease);
-    if (running == running_.end()) continue;
-    *running->second = true;
-    running_.erase(running);
+    const auto task = tasks_.find(lease);
+    if (task == tasks_.end()) continue;
+    drop(task->second);
+    tasks_.erase(task);
   }
 }
 
 void Crew::take(const FrameEnd& end) {
   const Lock lock(mutex_);
   const FrameId id{end.job, end.frame};
-  const auto frame = frames_.find(id);
-  if (frame == frames_.end()) return;
-  std::erase_if(waiting_, [&](const Assignment& a) { return frame_of(a) == id; });
-  std::shared_ptr<SceneState> scene = std::move(frame->second.scene);
-  frames_.erase(frame);
-  if (std::ranges::any_of(frames_, [&](const auto& other) { return other.second.scene == scene; })) return;
+  const auto found = frames_.find(id);
+  if (found == frames_.end()) return;
+  const auto is_of_it = [&](const TaskPtr& task) { return task->frame == found->second; };
+  std::erase_if(tasks_, [&](const auto& held) {
+    const bool ends = is_of_it(held.second) && held.second->progress == Progress::waiting;
+    if (ends) drop(held.second);
+    return ends;
+  });
+  for (const TaskPtr& task : answered_)
+    if (is_of_it(task)) discard(task);
+  std::erase_if(answered_, is_of_it);
+  std::shared_ptr<SceneState> scene = found->second->scene;
+  frames_.erase(found);
+  if (std::ranges::any_of(frames_, [&](const auto& other) { return other.second->scene == scene; })) return;
   scenes_.erase(scene->data.hash);
   discard(std::move(scene));
+}
+
+void Crew::take(const Unneeded& unneeded) {
+  const Lock lock(mutex_);
+  std::erase_if(kept_, [&](const TaskPtr& task) {
+    const bool ends = std::ranges::count(unneeded.leases, task->assignment.lease) != 0;
+    if (ends) drop(task);
+    return ends;
+  });
 }
 
 std::vector<LeaseId> Crew::stop_taking() {
   const Lock lock(mutex_);
   taking_ = false;
-  return drop_waiting();
+  drop_kept();
+  std::vector<LeaseId> leases;
+  for (const TaskPtr& task : std::exchange(waiting_, {})) {
+    leases.push_back(task->assignment.lease);
+    tasks_.erase(task->assignment.lease);
+    discard(task);
+  }
+  return leases;
 }
 
 std::vector<LeaseId> Crew::abandon() {
   const Lock lock(mutex_);
   taking_ = false;
-  std::vector<LeaseId> leases = drop_waiting();
-  std::ranges::copy(stop_running(), std::back_inserter(leases));
+  drop_kept();
+  std::vector<LeaseId> leases;
+  for (const auto& [lease, task] : std::exchange(tasks_, {})) {
+    leases.push_back(lease);
+    drop(task);
+  }
   return leases;
 }
 
@@ -134,26 +188,67 @@ std::vector<LeaseId> Crew::abandon() {
 
 void Crew::give_back(LeaseId lease, std::string reason) { answer_(GiveBack{{lease}, std::move(reason)}); }
 
-void Crew::discard(std::shared_ptr<void> scene_or_asset) {
-  discarded_.push_back(std::move(scene_or_asset));
+void Crew::discard(std::shared_ptr<void> what) {
+  discarded_.push_back(std::move(what));
   changed_.notify_one();
 }
 
-std::vector<LeaseId> Crew::drop_waiting() {
-  std::vector<LeaseId> leases;
-  for (const Assignment& assignment : waiting_) leases.push_back(assignment.lease);
-  waiting_.clear();
-  return leases;
+/// Out of what is done; not of the lists that name it.
+void Crew::drop(const TaskPtr& task) {
+  task->stop = true;
+  if (task->progress == Progress::waiting) std::erase(waiting_, task);
+  discard(task);
 }
 
-std::vector<LeaseId> Crew::stop_running() {
-  std::vector<LeaseId> leases;
-  for (const auto& [lease, stop] : running_) {
-    *stop = true;
-    leases.push_back(lease);
+/// The leases end, the work goes on.
+void Crew::keep_all() {
+  for (const TaskPtr& task : answered_) kept_.push_back(task);
+  for (const auto& [lease, task] : tasks_) kept_.push_back(task);
+  answered_.clear();
+  tasks_.clear();
+  for (const TaskPtr& task : kept_) task->is_kept = true;
+  for (; kept_.size() > most_kept; kept_.pop_front()) drop(kept_.front());
+}
+
+void Crew::drop_kept() {
+  for (const TaskPtr& task : std::exchange(kept_, {})) drop(task);
+}
+
+/// What has the pixels that are asked for, or is about to; null when there is none.
+Crew::TaskPtr Crew::take_kept(const Assignment& wanted, const Frame& frame) {
+  const auto found = std::ranges::find_if(kept_, [&](const TaskPtr& task) {
+    return task->frame->scene == frame.scene && task->frame->settings == frame.settings &&
+           task->assignment.tile == wanted.tile && (task->assignment.passes & wanted.passes) == wanted.passes;
+  });
+  if (found == kept_.end()) return nullptr;
+  const TaskPtr task = *found;
+  kept_.erase(found);
+  return task;
+}
+
+void Crew::finish(const TaskPtr& task) {
+  task->progress = Progress::finished;
+  if (task->is_kept) return;
+  const Assignment& a = task->assignment;
+  tasks_.erase(a.lease);
+  Result result{a.lease, a.job, a.frame, a.tile, {}, task->seconds};
+  for (const PassImage& image : task->images)  // a lost master may have asked for more
+    if (a.passes >> image.pass & 1) result.images.push_back(image);
+  answered_.push_back(task);
+  if (answered_.size() > most_answered) {
+    discard(answered_.front());
+    answered_.pop_front();
   }
-  running_.clear();
-  return leases;
+  answer_(std::move(result));
+}
+
+void Crew::fail(const TaskPtr& task, std::string reason) {
+  if (task->is_kept) {
+    std::erase(kept_, task);
+  } else {
+    tasks_.erase(task->assignment.lease);
+    give_back(task->assignment.lease, std::move(reason));
+  }
 }
 
 // The threads. ---------------------------------------------------------------------------------------------
@@ -174,16 +269,16 @@ bool Crew::work_once(Lock& lock) {
     return true;
   }
   for (auto next = waiting_.begin(); next != waiting_.end(); ++next) {
-    Frame frame = frames_.at(frame_of(*next));
-    if (frame.scene->preparing) continue;
-    if (!frame.scene->is_settled()) {
-      prepare(lock, frame);
-      return true;
+    const TaskPtr task = *next;
+    const std::shared_ptr<const Frame> frame = task->frame;
+    if (frame->scene->preparing) continue;
+    if (!frame->scene->is_settled()) {
+      prepare(lock, *frame);
+    } else {
+      waiting_.erase(next);
+      render(lock, task);
     }
-    const Assignment assignment = *next;
-    waiting_.erase(next);
-    render(lock, assignment, frame);
-    discarded_.push_back(std::move(frame.scene));  // who holds it last frees it, and that may be us
+    discarded_.push_back(task);  // who holds it last frees it, and that may be us
     return true;
   }
   return false;
@@ -225,32 +320,31 @@ void Crew::prepare(Lock& lock, const Frame& frame) {
   changed_.notify_all();
 }
 
-void Crew::render(Lock& lock, const Assignment& assignment, const Frame& frame) {
-  if (!frame.scene->fault.empty()) return give_back(assignment.lease, frame.scene->fault);
-  const auto stop = std::make_shared<std::atomic<bool>>(false);
-  running_.insert_or_assign(assignment.lease, stop);
+void Crew::render(Lock& lock, const TaskPtr& task) {
+  // Another master may ask for less meanwhile, and mean the same by another frame.
+  const std::shared_ptr<const Frame> frame = task->frame;
+  const Assignment assignment = task->assignment;
+  if (!frame->scene->fault.empty()) return fail(task, frame->scene->fault);
+  task->progress = Progress::running;
   lock.unlock();
 
   std::optional<std::vector<PassImage>> images;
   std::string fault;
   const auto begun = std::chrono::steady_clock::now();
   try {
-    images = frame.scene->renderer(frame.settings, assignment.tile, assignment.passes,
-                                   [&] { return stop->load(std::memory_order_relaxed); });
+    images = frame->scene->renderer(frame->settings, assignment.tile, assignment.passes,
+                                    [&] { return task->stop.load(std::memory_order_relaxed); });
   } catch (const std::exception& error) {
     fault = error.what();
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
 
   lock.lock();
-  // Another master may have given the same number to another lease meanwhile.
-  const auto running = running_.find(assignment.lease);
-  if (running == running_.end() || running->second != stop) return;
-  running_.erase(running);
-  if (!fault.empty()) return give_back(assignment.lease, std::move(fault));
+  if (task->stop) return;
+  if (!fault.empty()) return fail(task, std::move(fault));
   assert(images);  // it was never told to stop
-  answer_(Result{assignment.lease, assignment.job, assignment.frame, assignment.tile, std::move(*images),
-                 took.count()});
+  task->images = std::move(*images), task->seconds = took.count();
+  finish(task);
 }
 
 }  // namespace rayfarm

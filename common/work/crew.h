@@ -22,7 +22,11 @@ namespace rayfarm {
 /// made ready once, by one of the threads, for all frames that show it.
 ///
 /// Each lease ends in exactly one of: a Result, a GiveBack that says why it cannot be rendered, a Revoke or
-/// FrameEnd, the list that stop_taking() or abandon() returns, begin().
+/// FrameEnd, the list that stop_taking() or abandon() returns, lose_master().
+///
+/// What was held when the master was lost goes on being rendered, and is kept: an assignment of the next master that asks
+/// for the same pixels, by the content of scene and settings, is answered with it. So are the last few results, which
+/// the old master may not have got.
 class Crew {
  public:
   /// Called by the crew's threads, one at a time; must return soon and not call the crew.
@@ -34,9 +38,13 @@ class Crew {
   ~Crew();
   Crew(const Crew&) = delete;
 
-  /// A new master, before anything is taken: all jobs, scenes and leases are forgotten, nothing more is
-  /// answered to the old one.
+  /// A new master, before anything is taken: it has told us of no job or scene; nothing more is answered to the old one,
+  /// which is lost.
   void begin(Answer answer);
+  void lose_master();
+  /// What is kept of lost masters' work, the oldest first.
+  std::vector<HeldTile> kept();
+  void forget_kept();
 
   void take(const AssetData& asset);
   void take(const AssetEnd& end);
@@ -45,6 +53,7 @@ class Crew {
   void take(const Assignment& assignment);
   void take(const Revoke& revoke);
   void take(const FrameEnd& end);
+  void take(const Unneeded& unneeded);
 
   /// The leases that were not begun, which now will not be, nor those that are still to come.
   std::vector<LeaseId> stop_taking();
@@ -72,32 +81,48 @@ class Crew {
     std::shared_ptr<SceneState> scene;
     Assets assets;
   };
-  using Stop = std::shared_ptr<std::atomic<bool>>;
+  enum class Progress { waiting, running, finished };
+  struct Task {
+    Assignment assignment;
+    std::shared_ptr<const Frame> frame;
+    bool is_kept = false;  // its master is lost
+    Progress progress = Progress::waiting;
+    std::atomic<bool> stop{false};
+    std::vector<PassImage> images{};  // once it is finished
+    double seconds = 0;
+    Task(const Assignment& a, std::shared_ptr<const Frame> of) : assignment(a), frame(std::move(of)) {}
+  };
+  using TaskPtr = std::shared_ptr<Task>;
   using Lock = std::unique_lock<std::mutex>;
 
   void work();
   bool work_once(Lock& lock);
   void prepare(Lock& lock, const Frame& frame);
   static TileRenderer made_ready(const SceneData& scene, const Assets& assets, const PrepareScene& prepare);
-  void render(Lock& lock, const Assignment& assignment, const Frame& frame);
+  void render(Lock& lock, const TaskPtr& task);
+  void finish(const TaskPtr& task);
+  void fail(const TaskPtr& task, std::string reason);
   void give_back(LeaseId lease, std::string reason);
-  void discard(std::shared_ptr<void> scene_or_asset);
-  std::vector<LeaseId> drop_waiting();
-  std::vector<LeaseId> stop_running();
+  void discard(std::shared_ptr<void> what);
+  void drop(const TaskPtr& task);
+  void keep_all();
+  void drop_kept();
+  TaskPtr take_kept(const Assignment& assignment, const Frame& frame);
 
   const PrepareScene prepare_;
 
-  // Guarded by mutex_. Invariant: a lease is waiting, running or not ours, and a running one not in two
-  // threads.
+  // Guarded by mutex_.
   std::mutex mutex_;
   std::condition_variable changed_;
   Answer answer_;
   bool taking_ = true, ending_ = false;
   std::map<std::string, std::shared_ptr<SceneState>> scenes_;  // by hash
   std::map<std::string, std::shared_ptr<AssetState>> assets_;  // by hash
-  std::map<FrameId, Frame> frames_;
-  std::deque<Assignment> waiting_;
-  std::map<LeaseId, Stop> running_;
+  std::map<FrameId, std::shared_ptr<const Frame>> frames_;
+  std::map<LeaseId, TaskPtr> tasks_;              // exactly those whose leases have not ended
+  std::deque<TaskPtr> kept_;                      // of lost masters
+  std::deque<TaskPtr> waiting_;                   // exactly those of both that were not begun
+  std::deque<TaskPtr> answered_;                  // the last ones; their leases have ended
   std::vector<std::shared_ptr<void>> discarded_;  // freed by a thread of ours: that takes long
 
   std::vector<std::jthread> threads_;  // last: the threads end before what they use

@@ -1,6 +1,7 @@
 #include "master/cli/master_api.h"
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
@@ -20,11 +21,17 @@ using Clock = std::chrono::steady_clock;
 constexpr int news_seconds = 10;                          // how long the master may hold a question for news
 constexpr auto made_patience = std::chrono::minutes(10);  // a picture of 500 megapixels is compressed first
 constexpr auto busy_patience = std::chrono::minutes(2);
+constexpr auto away_patience = std::chrono::minutes(1);  // for a master that is started again
 constexpr auto busy_pause = std::chrono::milliseconds(500);
 
 /// The master says: try again.
 struct MasterBusy : CommandError {
   explicit MasterBusy(const std::string& message) : CommandError(ExitCode::failed, message) {}
+};
+
+/// Nobody answers where it should be.
+struct MasterAway : CommandError {
+  explicit MasterAway(const std::string& message) : CommandError(ExitCode::master_unreachable, message) {}
 };
 
 /// What RAYFARM_TOKEN_FILE holds; empty: there is none.
@@ -69,9 +76,8 @@ HttpReply asked(HttpRequest request) {
     if (reply.status >= 300) throw CommandError(exit_code_of(reply.status), error_in(reply));
     return reply;
   } catch (const MasterUnreachable& error) {
-    throw CommandError(
-        ExitCode::master_unreachable,
-        std::string(error.what()) + "; start one with rayfarm-master, or say where it is in RAYFARM_MASTER");
+    throw MasterAway(std::string(error.what()) +
+                     "; start one with rayfarm-master, or say where it is in RAYFARM_MASTER");
   } catch (const MasterUntrusted& error) {
     throw CommandError(ExitCode::not_allowed, error.what());
   } catch (const RequestTimedOut& error) {
@@ -80,6 +86,24 @@ HttpReply asked(HttpRequest request) {
     throw CommandError(ExitCode::interrupted, error.what());
   } catch (const std::invalid_argument& error) {
     throw CommandError(ExitCode::usage, std::string(error.what()) + " (RAYFARM_MASTER)");
+  }
+}
+
+/// What may be asked twice. A master that has answered before and is away now is waited for: it may be started again.
+HttpReply asked_again(const HttpRequest& request) {
+  static bool has_answered = false;
+  const auto end = Clock::now() + away_patience;
+  for (bool is_told = false;; is_told = true) {
+    try {
+      HttpReply reply = asked(request);
+      has_answered = true;
+      return reply;
+    } catch (const MasterAway&) {
+      if (!has_answered || Clock::now() > end) throw;
+      if (!is_told) std::fputs("rayfarm: the master does not answer; waiting for it\n", stderr);
+    }
+    std::this_thread::sleep_for(busy_pause);
+    if (interrupted()) throw CommandError(ExitCode::interrupted, "interrupted");
   }
 }
 
@@ -110,14 +134,14 @@ std::string master_url() {
   return url != nullptr && *url != '\0' ? url : "http://127.0.0.1:5412";
 }
 
-json get_json(const std::string& target) { return parsed(asked({"GET", "", target, ""})); }
+json get_json(const std::string& target) { return parsed(asked_again({"GET", "", target, ""})); }
 std::string get_bytes(const std::string& target) {
-  return asked({"GET", "", target, "", made_patience}).body;
+  return asked_again({"GET", "", target, "", made_patience}).body;
 }
 
 Progress made_so_far(const std::string& target) {
   const char* wait = target.find('?') == std::string::npos ? "?wait=1" : "&wait=1";  // seconds between news
-  HttpReply reply = asked({"GET", "", target + wait, "", made_patience});
+  HttpReply reply = asked_again({"GET", "", target + wait, "", made_patience});
   if (reply.status != 202) return {std::move(reply.body), 1};
   const json making = parsed(reply);
   const json& part = making.contains("detail") ? making["detail"] : making;
@@ -140,7 +164,7 @@ json post_json_patiently(const std::string& target, const json& body,
                          const std::function<void()>& while_busy) {
   for (;;) {
     try {
-      return post_json(target, body);
+      return parsed(asked_again({"POST", "", target, body.dump()}));
     } catch (const MasterBusy&) {
       std::this_thread::sleep_for(busy_pause);
       while_busy();

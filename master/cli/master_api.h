@@ -1,4 +1,5 @@
-// The master as the commands see it: JSON in, JSON out, every failure an exit code and a message.
+// The master as the commands see it: JSON in, JSON out, every failure an exit code and a message. A master that has
+// answered and is away is waited for, a minute at most, where a question may be asked twice: all but post_json().
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -22,7 +23,7 @@ struct Progress {
 };
 Progress made_so_far(const std::string& target);
 nlohmann::json post_json(const std::string& target, const nlohmann::json& body);
-/// The same, again and again while the master is too busy or too full; while_busy() is called between.
+/// What may be posted twice, again and again while the master is too busy or too full; while_busy() is called between.
 nlohmann::json post_json_patiently(const std::string& target, const nlohmann::json& body,
                                    const std::function<void()>& while_busy);
 

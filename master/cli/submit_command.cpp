@@ -116,6 +116,10 @@ json sent_whole(SceneFrames& frames, const json& job, Watch& watch) {
       throw CommandError(ExitCode::interrupted, "interrupted; job " + id +
                                                     " still waits for frames: rayfarm cancel " + id +
                                                     ", or submit it again with the same --id");
+    const auto* failure = dynamic_cast<const CommandError*>(&error);
+    if (failure && failure->code == ExitCode::master_unreachable)
+      throw CommandError(failure->code, failure->what() + ("; job " + id) +
+                                            " lacks frames: submit it again with the same --id");
     post_json(job_target(job.at("id")) + "/cancel", json::object());
     std::fprintf(stderr, "rayfarm: job %s is cancelled\n", id.c_str());
     throw;

@@ -44,6 +44,49 @@ TEST_F(KilledMaster, GoesOnWithWhatWasDone) {
   }
 }
 
+TEST_F(KilledMaster, IsHandedWhatItsWorkersFinishedMeanwhile) {
+  const Words slow{scene_file("circus"), "--size", "256x192", "--spp", "256"};
+  const std::string expected = rendered_here(slow);
+  start();
+  start_worker("pc0"), start_worker("pc1");
+  wait_for_workers(2);
+  const std::string id = submit(slow);
+  wait_until("both have work", [&] { return leases_of("pc0") > 1 && leases_of("pc1") > 1; });
+  kill_master();
+  start_again();
+  for (const char* name : {"pc0", "pc1"})
+    wait_until("a worker offers what it has",
+               [&] { return log_of(name).find("tiles are still here") != std::string::npos; });
+  wait_for_state(id, "done");
+  EXPECT_TRUE(fetched(id) == expected);
+  EXPECT_NE(log_of("master").find("that it held"), std::string::npos);
+}
+
+TEST_F(KilledMaster, IsWaitedForByWhoSubmitsFrames) {
+  put_content(folder / "turning.lua", turning_scene);
+  const Words frames{folder / "turning.lua", "--frames", "0-20", "--size", "64x64", "--spp", "4"};
+  const ProgramResult here = rayfarm(Words{"render"} + frames + Words{"-o", folder / "here.##.exr"});
+  ASSERT_EQ(here.exit_code, 0) << here.err;
+
+  start();
+  start_worker("pc0");
+  wait_for_workers(1);
+  const std::string url = http();
+  ChildProgram submission(Words{"rayfarm", "submit"} + frames + Words{"-o", folder / "farm.##.exr", "--wait"},
+                          {{"RAYFARM_MASTER", url}});
+  const std::string id = submission.next_line();
+  wait_until("some frames have come", [&] { return job(id).at("frames").at("sent") >= 3; });
+  kill_master();
+  start_master({"--threads", "0", "--state", folder / "state", "--http", url.substr(url.rfind('/') + 1)},
+               farm_address());
+  const ProgramResult submitted = submission.result();
+  EXPECT_EQ(submitted.exit_code, 0) << submitted.err;
+  for (const char* frame : {"00", "01", "07", "19", "20"})
+    EXPECT_TRUE(content_of(folder / (std::string("here.") + frame + ".exr")) ==
+                content_of(folder / (std::string("farm.") + frame + ".exr")))
+        << frame;
+}
+
 TEST_F(KilledMaster, SuspendsAJobThatWasLiveAtTwoCrashesAndNamesIt) {
   start();
   start_worker("pc0");

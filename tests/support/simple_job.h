@@ -26,6 +26,7 @@ class Gate {
   void wait_for_begun(int tiles);
   /// Waits until so many have been told to stop.
   void wait_for_stopped(int tiles);
+  int begun() const { return begun_; }
   int stopped() const { return stopped_; }
   void open();
 

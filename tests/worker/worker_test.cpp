@@ -30,7 +30,8 @@ struct MasterAtDoor : MasterByHand {
     accept(door.acceptor);
     hello = receive_a<Hello>();
   }
-  void welcome() { send(Welcome{hello.name}); }
+  /// As one that asks for nothing that was held.
+  void welcome() { send(Welcome{hello.name, {protocol_version, protocol_version, 0}}); }
   /// Job 1 at 640x480, 80 tiles.
   void start_job() {
     const SceneData scene = scene_data(simple_scene());
@@ -55,6 +56,42 @@ TEST(Worker, SaysHelloAndDeliversWhatItIsAssigned) {
     EXPECT_EQ(result.lease, LeaseId{100 + tile});
     EXPECT_EQ(result.images, position_tile({}, tile, all_passes, [] { return false; }));
   }
+}
+
+TEST(Worker, OffersANewMasterWhatItHasOfALostOne) {
+  Door door;
+  WorkerThread worker(worker_for(door.address(), "lab7"), prepare_positions);
+  {
+    MasterAtDoor lost(door);
+    lost.welcome();
+    lost.start_job();
+    lost.assign(100, 5);
+    lost.receive_a<Result>();
+  }
+  MasterAtDoor next(door);
+  next.send(Welcome{"lab7"});
+  const Assignment held{LeaseId{100}, JobId{1}, 0, 5, all_passes};
+  EXPECT_EQ(next.receive_a<Holds>(), (Holds{{{held, true}}}));
+  next.start_job();
+  next.assign(7, 5);
+  EXPECT_EQ(next.receive_a<Result>().lease, LeaseId{7});
+}
+
+TEST(Worker, OffersNothingToAMasterThatDoesNotKnowOfIt) {
+  Door door;
+  WorkerThread worker(worker_for(door.address(), "lab7"), prepare_positions);
+  {
+    MasterAtDoor lost(door);
+    lost.welcome();
+    lost.start_job();
+    lost.assign(100, 5);
+    lost.receive_a<Result>();
+  }
+  MasterAtDoor older(door);
+  older.welcome();
+  older.start_job();
+  older.assign(7, 6);
+  EXPECT_EQ(older.receive_a<Result>().lease, LeaseId{7});
 }
 
 TEST(Worker, ComesBackToAMasterThatWasGone) {

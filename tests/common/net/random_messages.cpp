@@ -16,6 +16,11 @@ std::vector<LeaseId> random_leases(std::mt19937_64& random) {
   return leases;
 }
 
+Assignment random_assignment(std::mt19937_64& random) {
+  return {LeaseId{random()}, JobId{random()}, static_cast<std::uint32_t>(random()),
+          static_cast<std::uint32_t>(random()), static_cast<PassSet>(1 + random() % 15)};
+}
+
 RenderSettings random_settings(std::mt19937_64& random) {
   RenderSettings s;
   s.width = 1 + random() % 2000, s.height = 1 + random() % 2000, s.spp = 16;
@@ -54,9 +59,9 @@ std::vector<ToWorker> random_to_worker(std::mt19937_64& random) {
           Refused{"the name " + random_name(random) + " is banned"},
           SceneData{hash, std::make_shared<const Bytes>(scene)},
           FrameStart{JobId{random()}, hash, random_settings(random), {hash, std::string(64, 'b')}},
-          Assignment{LeaseId{random()}, JobId{random()}, static_cast<std::uint32_t>(random()),
-                     static_cast<std::uint32_t>(random()), static_cast<PassSet>(1 + random() % 15)},
+          random_assignment(random),
           Revoke{random_leases(random)},
+          Unneeded{random_leases(random)},
           FrameEnd{JobId{random()}, static_cast<std::uint32_t>(random())},
           Heartbeat{},
           Goodbye{"the master stops"},
@@ -83,6 +88,7 @@ std::vector<ToMaster> random_to_master(std::mt19937_64& random) {
                 random()},
           std::move(result),
           GiveBack{random_leases(random), "it stops"},
+          Holds{{{random_assignment(random), true}, {random_assignment(random), false}}},
           Heartbeat{},
           Goodbye{"the worker stops"},
           Join{{4, 4, random()},

@@ -132,7 +132,7 @@ TEST(Crew, AbandonsEverything) {
   at_work.assign(1, 0);
   at_work.assign(2, 0);
   gate.wait_for_begun(1);
-  EXPECT_EQ(at_work.crew.abandon(), (std::vector{LeaseId{2}, LeaseId{1}}));
+  EXPECT_EQ(at_work.crew.abandon(), (std::vector{LeaseId{1}, LeaseId{2}}));
   EXPECT_TRUE(at_work.answers.empty());
 }
 
@@ -159,6 +159,118 @@ TEST(Crew, EndsInTheMiddleOfATile) {
     gate.wait_for_begun(2);
   }
   EXPECT_EQ(gate.stopped(), 2);
+}
+
+// A master that is lost. -----------------------------------------------------------------------------------
+
+/// Its master is lost, and the next one tells it of the same job.
+void lose_master(CrewAtWork& at_work) {
+  at_work.crew.lose_master();
+  at_work.crew.begin([&](ToMaster message) { at_work.answers.add(std::move(message)); });
+}
+
+TEST(Crew, FinishesWhatItHeldWhenItsMasterWasLostAndAnswersTheNextOneWithIt) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.assign(1, 5);
+  at_work.assign(2, 6);
+  gate.wait_for_begun(1);
+  lose_master(at_work);
+  EXPECT_EQ(at_work.crew.kept().size(), 2u);
+  gate.open();
+  gate.wait_for_begun(2);
+  at_work.start_job(1);
+  at_work.assign(101, 5);
+  at_work.assign(102, 6);
+  std::set<LeaseId> leases;
+  for (int i = 0; i < 2; ++i) {
+    const auto result = std::get<Result>(at_work.answers.next());
+    EXPECT_EQ(result.images, position_tile({}, result.tile, all_passes, [] { return false; }));
+    leases.insert(result.lease);
+  }
+  EXPECT_EQ(leases, (std::set{LeaseId{101}, LeaseId{102}}));
+  EXPECT_TRUE(at_work.crew.kept().empty());
+  gate.wait_for_begun(2);
+  at_work.assign(103, 7);
+  at_work.answers.next();
+  gate.wait_for_begun(3);
+  EXPECT_EQ(gate.begun(), 3) << "nothing was rendered twice";
+}
+
+TEST(Crew, GivesAResultAgainThatTheLostMasterMayNotHaveGot) {
+  Gate gate;
+  gate.open();
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.assign(1, 5);
+  at_work.answers.next();
+  lose_master(at_work);
+  EXPECT_EQ(at_work.crew.kept(), (std::vector<HeldTile>{{{LeaseId{1}, JobId{1}, 0, 5, all_passes}, true}}));
+  at_work.start_job(1);
+  at_work.crew.take(Assignment{LeaseId{2}, JobId{1}, 0, 5, 0b1010});
+  const auto result = std::get<Result>(at_work.answers.next());
+  EXPECT_EQ(result.lease, LeaseId{2});
+  EXPECT_EQ(result.images, position_tile({}, 5, 0b1010, [] { return false; })) << "just what is asked for";
+  EXPECT_EQ(gate.begun(), 1);
+}
+
+TEST(Crew, RendersAnewWhatAnotherMasterMeansByTheSameNumbers) {
+  Gate gate;
+  gate.open();
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.assign(1, 5);
+  at_work.answers.next();
+  lose_master(at_work);
+  const SceneData scene = scene_data(simple_scene());
+  at_work.crew.take(scene);
+  const RenderSettings settings{.seed = 9};
+  at_work.crew.take(FrameStart{JobId{1}, scene.hash, settings});
+  at_work.assign(2, 5);
+  EXPECT_EQ(std::get<Result>(at_work.answers.next()).images,
+            position_tile(settings, 5, all_passes, [] { return false; }));
+}
+
+TEST(Crew, StopsWhatIsUnneeded) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.assign(1, 5);
+  at_work.assign(2, 6);
+  gate.wait_for_begun(1);
+  lose_master(at_work);
+  at_work.crew.take(Unneeded{{LeaseId{1}, LeaseId{2}}});
+  gate.wait_for_stopped(1);
+  EXPECT_TRUE(at_work.crew.kept().empty());
+  gate.open();
+  at_work.start_job(1);
+  at_work.assign(3, 7);
+  EXPECT_EQ(std::get<Result>(at_work.answers.next()).tile, 7u);
+  EXPECT_EQ(gate.begun(), 2);
+}
+
+TEST(Crew, KeepsNothingOfAFrameThatHasEnded) {
+  CrewAtWork at_work(1, prepare_positions);
+  at_work.assign(1, 5);
+  at_work.answers.next();
+  at_work.crew.take(FrameEnd{JobId{1}, 0});
+  at_work.crew.lose_master();
+  EXPECT_TRUE(at_work.crew.kept().empty());
+}
+
+TEST(Crew, PreparesASceneOnceThoughTwoMastersSendIt) {
+  std::atomic<int> prepared{0};
+  Gate gate;
+  CrewAtWork at_work(1, [&](Scene scene) {
+    ++prepared;
+    return gate.prepare()(std::move(scene));
+  });
+  at_work.assign(1, 5);
+  gate.wait_for_begun(1);
+  lose_master(at_work);
+  at_work.start_job(1);
+  at_work.assign(2, 5);
+  at_work.assign(3, 6);
+  gate.open();
+  at_work.answers.next(), at_work.answers.next();
+  EXPECT_EQ(prepared, 1);
 }
 
 }  // namespace

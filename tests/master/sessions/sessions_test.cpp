@@ -77,7 +77,7 @@ TEST(Sessions, SpeakTheNewestProtocolAndTheCapabilitiesThatBothHave) {
   Hello hello = hello_from("from the future");
   hello.versions = {9, 2, 0b101};
   peer.send(hello);
-  EXPECT_EQ(peer.receive_a<Welcome>().versions, (Versions{protocol_version, protocol_version, 0}));
+  EXPECT_EQ(peer.receive_a<Welcome>().versions, (Versions{protocol_version, protocol_version, can_reattach}));
 }
 
 TEST(Sessions, RefuseARendererThatMakesOtherBits) {

@@ -1,0 +1,140 @@
+// Workers that come back with what they held: after the network was cut, or after the master died.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "tests/master/farm/fake_worker.h"
+#include "tests/master/farm/rebuilt_farm.h"
+
+namespace rayfarm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Size ten_tiles{10 * 64, 64};
+
+WorkerInfo remote(std::string name, std::uint32_t threads = 2) {
+  return {.name = std::move(name), .threads = threads};
+}
+
+std::vector<LeaseId> unneeded_in(const std::vector<ToWorker>& messages) {
+  std::vector<LeaseId> leases;
+  for (const ToWorker& message : messages)
+    if (const auto* unneeded = std::get_if<Unneeded>(&message))
+      std::ranges::copy(unneeded->leases, std::back_inserter(leases));
+  return leases;
+}
+
+bool holds_tile(const FakeWorker& worker, std::uint32_t tile) {
+  return std::ranges::count(worker.held(), tile, &Assignment::tile) == 1;
+}
+
+/// A farm that died while a worker held tiles, and was built again from its records.
+struct DeadMaster {
+  std::vector<FarmRecord> records;
+  std::vector<Assignment> held;
+  JobId job{};
+  Farm farm = after_death();
+
+  Farm after_death() {
+    Farm first;
+    FakeWorker worker(first, remote("pc"));
+    job = first.submit(job_of(ten_tiles), 0s);
+    worker.finish_one(1s);
+    held = worker.held();
+    records = first.take_records();
+    return Farm({}, past_of(records), 2s);
+  }
+};
+
+TEST(Reattach, AWorkerIsAskedForWhatItHeldWhenTheMasterDied) {
+  DeadMaster dead;
+  FakeWorker worker(dead.farm, remote("pc", 1), 2s);
+  ASSERT_EQ(dead.held.size(), 4u);
+  const Assignment far = dead.held.back();
+  ASSERT_FALSE(holds_tile(worker, far.tile)) << "else there is nothing to be seen";
+  dead.farm.receive(worker.id(), Holds{{{far, true}}}, 2s);
+  EXPECT_TRUE(holds_tile(worker, far.tile));
+  EXPECT_TRUE(unneeded_in(worker.take_messages()).empty());
+  while (!worker.held().empty()) worker.finish_one(3s);
+  EXPECT_EQ(dead.farm.job(dead.job, 3s)->counters, made_up_counters(ten_tiles));
+  EXPECT_EQ(dead.farm.film(dead.job)->rgb(), made_up_picture(dead.job, ten_tiles));
+}
+
+TEST(Reattach, WhatIsFinishedIsAskedForThoughAnotherHoldsItButWhatIsNotIsLeftToTheOther) {
+  for (const bool is_finished : {true, false}) {
+    DeadMaster dead;
+    FakeWorker other(dead.farm, remote("other", 8), 2s), worker(dead.farm, remote("pc", 1), 2s);
+    ASSERT_TRUE(holds_tile(other, dead.held[0].tile));
+    dead.farm.receive(worker.id(), Holds{{{dead.held[0], is_finished}}}, 2s);
+    EXPECT_EQ(holds_tile(worker, dead.held[0].tile), is_finished);
+    EXPECT_EQ(unneeded_in(worker.take_messages()).size(), is_finished ? 0u : 1u);
+    while (!worker.held().empty()) worker.finish_one(3s);
+    EXPECT_EQ(holds_tile(other, dead.held[0].tile), !is_finished);
+    while (!other.held().empty()) other.finish_one(3s);
+    EXPECT_EQ(dead.farm.job(dead.job, 3s)->counters, made_up_counters(ten_tiles));
+  }
+}
+
+TEST(Reattach, WhatIsThereAlreadyIsUnneeded) {
+  DeadMaster dead;
+  FakeWorker worker(dead.farm, remote("pc"), 2s);
+  while (!worker.held().empty()) worker.finish_one(3s);
+  dead.farm.receive(worker.id(), Holds{{{dead.held[0], true}}}, 3s);
+  EXPECT_TRUE(worker.held().empty());
+  EXPECT_EQ(unneeded_in(worker.take_messages()), std::vector{dead.held[0].lease});
+}
+
+TEST(Reattach, OnlyThePassesThatAreMissingAreAskedFor) {
+  DeadMaster dead;
+  FakeWorker threads(dead.farm, {.name = "master", .threads = 1, .kind = WorkerKind::local}, 2s);
+  const std::uint32_t tile = dead.held[3].tile;
+  FarmTime now = 2s;
+  for (bool is_it = false; !is_it; threads.finish_one(now += 1s)) is_it = threads.held().at(0).tile == tile;
+  FakeWorker worker(dead.farm, remote("pc", 1), now);
+  dead.farm.receive(worker.id(), Holds{{{dead.held[3], true}}}, now);
+  const auto given = std::ranges::find(worker.held(), tile, &Assignment::tile);
+  ASSERT_NE(given, worker.held().end());
+  EXPECT_EQ(given->passes, all_passes & ~1);
+}
+
+TEST(Reattach, WhatIsNoWorkOfThisFarmIsUnneeded) {
+  DeadMaster dead;
+  FakeWorker worker(dead.farm, remote("pc"), 2s);
+  const std::size_t held = worker.held().size();
+  const std::vector<Assignment> strange{{LeaseId{1}, JobId{77}, 0, 0, all_passes},
+                                        {LeaseId{2}, dead.job, 5, 0, all_passes},
+                                        {LeaseId{3}, dead.job, 0, 1000, all_passes}};
+  Holds holds;
+  for (const Assignment& work : strange) holds.tiles.push_back({work, true});
+  dead.farm.receive(worker.id(), holds, 2s);
+  EXPECT_EQ(worker.held().size(), held);
+  EXPECT_EQ(unneeded_in(worker.take_messages()), (std::vector{LeaseId{1}, LeaseId{2}, LeaseId{3}}));
+}
+
+TEST(Reattach, NobodyIsAskedForAJobThatIsPausedOrWhenItIsDrained) {
+  for (const bool is_paused : {true, false}) {
+    DeadMaster dead;
+    FakeWorker worker(dead.farm, remote("pc"), 2s);
+    is_paused ? dead.farm.pause(dead.job, 2s) : dead.farm.drain("pc", 2s);
+    dead.farm.receive(worker.id(), Holds{{{dead.held[0], true}}}, 2s);
+    EXPECT_TRUE(worker.held().empty());
+  }
+}
+
+TEST(Reattach, AfterTheNetworkWasCutAWorkerGoesOnToo) {
+  Farm farm;
+  FakeWorker cut(farm, remote("pc"));
+  const JobId job = farm.submit(job_of(ten_tiles), 0s);
+  const std::vector<Assignment> held = cut.held();
+  farm.remove_worker(cut.id(), "it was silent", 2s);
+  FakeWorker again(farm, remote("pc", 1), 3s);
+  farm.receive(again.id(), Holds{{{held[1], false}}}, 3s);
+  EXPECT_TRUE(holds_tile(again, held[1].tile));
+  while (!again.held().empty()) again.finish_one(4s);
+  EXPECT_EQ(farm.job(job, 4s)->counters, made_up_counters(ten_tiles));
+}
+
+}  // namespace
+}  // namespace rayfarm
