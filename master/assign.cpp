@@ -28,6 +28,12 @@ Job* Farm::State::next_job_for(const Worker& worker) {
 
 bool Farm::State::give_one(Worker& worker, FarmTime now) {
   Job* job = next_job_for(worker);
+  if (const auto trial = next_trial_for(worker)) {
+    const Job& tried = jobs.at(trial->frame.job);
+    const bool is_next = job == nullptr || tried.spec.priority >= job->spec.priority;
+    if (is_next && has_room_for(worker, tried.id)) return give_trial(worker, *trial, now), true;
+    if (is_next) return false;
+  }
   if (job == nullptr || !has_room_for(worker, job->id)) return false;
   const std::uint32_t place = *job->open.begin();
   JobFrame& frame = job->frames[place];
@@ -61,7 +67,7 @@ void Farm::State::fill(Worker& worker, FarmTime now) {
 
 void Farm::State::fill_all(FarmTime now) {
   // In rounds of one lease each, so that the few tiles of a small picture are spread over all workers.
-  bool anybody_took = !queue.empty();
+  bool anybody_took = !queue.empty() || !open_trials.empty();
   while (anybody_took) {
     anybody_took = false;
     for (auto& [id, worker] : workers) anybody_took |= give_one(worker, now);
@@ -102,8 +108,13 @@ void Farm::State::end_lease(Worker& worker, LeaseId id, FarmTime now) {
     workers.at(lease.twin->worker).leases.at(lease.twin->lease).twin.reset();
     return;
   }
-  frame_at(job, lease.frame).canvas->schedule.give_back(lease.work);
-  job.open.insert(job.spec.frames->index_of(lease.frame).value());
+  if (lease.is_check) return withdraw(worker, lease);
+  wait_again(job, lease.frame, lease.work);
+}
+
+void Farm::State::wait_again(Job& job, std::uint32_t frame, const Work& work) {
+  frame_at(job, frame).canvas->schedule.give_back(work);
+  job.open.insert(job.spec.frames->index_of(frame).value());
   update_queue(job);
 }
 

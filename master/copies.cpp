@@ -68,7 +68,7 @@ void Farm::State::add_candidates(const Worker& holder, FarmTime now, std::map<Jo
   std::size_t place = 0;
   for (const auto& [id, lease] : holder.leases) {
     const std::size_t i = place++;
-    if (lease.twin) continue;
+    if (lease.twin || lease.is_check) continue;
     Candidates& candidates = by_job[lease.job];
     candidates.stragglers.push_back({static_cast<std::uint64_t>(holder.id), left[i], costs[i]});
     candidates.leases.push_back(id);

@@ -103,17 +103,22 @@ bool Farm::ban(std::string_view name, FarmTime now) {
   Worker* worker = state_->worker_named(name);
   const auto was_here = state_->name_ids.find(std::string(name));
   if (was_here == state_->name_ids.end() || (worker && worker->info.kind == WorkerKind::local)) return false;
-  const bool is_new = state_->banned_names.insert(was_here->first).second;
-  if (is_new) {
-    state_->tell("worker " + was_here->first + " banned", was_here->first);
-    state_->record(WorkerBanned{was_here->first, true});
-  }
-  if (!worker) return true;
-  state_->end_leases(*worker, now);
-  worker->is_stopping = true;
-  worker->send(Refused{words_for_banned(name)});
+  state_->ban(was_here->first, now);
   state_->fill_all(now);
   return true;
+}
+
+void Farm::State::ban(const std::string& name, FarmTime now) {
+  const bool is_new = banned_names.insert(name).second;
+  if (is_new) {
+    tell("worker " + name + " banned", name);
+    record(WorkerBanned{name, true});
+  }
+  Worker* worker = worker_named(name);
+  if (!worker) return;
+  end_leases(*worker, now);
+  worker->is_stopping = true;
+  worker->send(Refused{words_for_banned(name)});
 }
 
 bool Farm::unban(std::string_view name, FarmTime) {
@@ -121,6 +126,10 @@ bool Farm::unban(std::string_view name, FarmTime) {
   if (banned == state_->banned_names.end()) return state_->worker_named(name) != nullptr;
   state_->tell("worker " + *banned + " no longer banned", *banned);
   state_->record(WorkerBanned{*banned, false});
+  if (const auto judged = state_->trust.find(name); judged != state_->trust.end()) {
+    judged->second = {};
+    state_->record(WorkerJudged{*banned, {}});
+  }
   state_->banned_names.erase(banned);
   return true;
 }
@@ -262,7 +271,8 @@ std::vector<FarmRecord> Farm::take_records() {
     if (const auto found = state_->jobs.find(id); found != state_->jobs.end()) {
       const Job& job = found->second;
       state_->record(JobChanged{id, job.state, job.spec.priority, job.message, job.spec.key,
-                                job.tiles_given_back, job.ended, job.tiles_doubled, job.time_wasted});
+                                job.tiles_given_back, job.ended, job.tiles_doubled, job.tiles_checked,
+                                job.time_wasted});
     }
   return std::exchange(state_->records, {});
 }

@@ -17,8 +17,12 @@
 // thread without work does a second time what is expected to end last, if it would be sooner (tail.h): the first result
 // counts, the other lease is revoked.
 //
+// What is to be verified (verification.h) is on trial first: its tile counts as leased until enough others, or the
+// master's own threads, say the same pixels; only then it is committed. Who was wrong twice is banned, and what it
+// delivered for unfinished jobs is rendered again. After a restart what was on trial waits.
+//
 // Memory: a frame costs its scene, which frames of the same hash share; from its first assignment also 12 bytes
-// a pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 42 bytes a tile. A frame that is done,
+// a pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 300 bytes a tile. A frame that is done,
 // or whose job has ended, keeps its film, which is fetched later, and one that is done also its scene, which
 // says how the picture came about, as long as FarmLimits say. Of all workers that there were, the first 10,000 names are kept, to say whose pixels
 // they are.
@@ -38,6 +42,7 @@
 #include "common/render/film.h"
 #include "master/farm_time.h"
 #include "master/frame_range.h"
+#include "master/verification.h"
 
 namespace rayfarm {
 
@@ -67,6 +72,7 @@ struct JobSpec {
   std::optional<FrameRange> frames;  // none: the one of the settings. The other scenes come by add_frame()
   int priority = 50;                 // 0..99, higher first; equals in order of submission
   bool hold = false;                 // starts paused
+  Verification verification;         // of what workers deliver; the master's own threads are believed
   std::string key;  // submit --id: the same key gives the same job again until that fails; empty: none
   std::map<std::string, std::string> parameters;  // that its script was given, as far as the submitter says
   std::string
@@ -82,6 +88,7 @@ struct FarmLimits {
   std::size_t jobs = 1000;           // at least 1; the others are as if they had never been
   std::size_t unfinished_jobs = 10'000;
   std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished frames, each scene and asset once
+  std::uint64_t secret = 0;  // that workers do not know: which of their tiles are checked follows from it
 };
 
 /// A job as people see it.
@@ -105,7 +112,9 @@ struct JobView {
   std::optional<FarmTime> eta;         // remaining; none before there is something to learn from
   std::uint64_t tiles_given_back = 0;  // leases that ended without a result
   std::uint64_t tiles_doubled = 0;     // given to a second worker near the end
-  FarmTime time_wasted{};              // of threads: on leases that ended so, and on those that came second
+  Verification verification;
+  std::uint64_t tiles_checked = 0;  // on which several had to agree, and did
+  FarmTime time_wasted{};           // of threads: on leases that ended so, and on those that came second
 };
 
 /// One of its frames.
@@ -231,8 +240,9 @@ class Farm {
 
   std::vector<JobView> jobs(FarmTime now) const;  // in order of submission
   std::optional<JobView> job(JobId id, FarmTime now) const;
-  std::vector<WorkerView> workers() const;        // in order of joining
-  std::vector<std::string> banned() const;        // names
+  std::vector<WorkerView> workers() const;  // in order of joining
+  std::vector<std::string> banned() const;  // names
+  Trust trust_in(std::string_view name) const;
   std::string name_of_worker(WorkerId id) const;  // empty: not here
   /// All that it will have; empty: no such job.
   std::vector<FrameView> frames(JobId id, FarmTime now) const;

@@ -52,7 +52,7 @@ struct JobChanged {
   std::string message, key;
   std::uint64_t tiles_given_back = 0;
   std::optional<FarmTime> ended;
-  std::uint64_t tiles_doubled = 0;
+  std::uint64_t tiles_doubled = 0, tiles_checked = 0;
   FarmTime time_wasted{};
 };
 struct SceneDropped {
@@ -82,10 +82,14 @@ struct WorkerBanned {
   std::string name;
   bool is_banned = false;
 };
+struct WorkerJudged {
+  std::string name;
+  Trust trust;
+};
 
 struct FarmRecord {
   std::variant<JobAdded, FrameAdded, FrameStarted, TileCommitted, PassesLost, JobChanged, SceneDropped,
-               PictureDropped, JobDropped, WorkerNamed, WorkerDrained, WorkerBanned>
+               PictureDropped, JobDropped, WorkerNamed, WorkerDrained, WorkerBanned, WorkerJudged>
       fact;
 };
 

@@ -11,6 +11,7 @@
 #include "master/farm.h"
 #include "master/farm_record.h"
 #include "master/job.h"
+#include "master/trial.h"
 #include "master/worker.h"
 
 namespace rayfarm {
@@ -31,6 +32,10 @@ struct Farm::State {
   std::map<std::string, SharedData> shared;  // by hash: exactly those that frames have
   std::uint64_t unfinished_bytes = 0;        // of those, each counted once
   std::map<WorkerId, Worker> workers;
+  std::map<std::string, Trust, std::less<>> trust;  // by name
+  // Work on trial is leased in its frame's schedule; it is committed when it is settled.
+  std::map<TrialId, Trial> trials;
+  std::set<TrialId> open_trials;  // exactly those that want more opinions
   std::set<std::string, std::less<>> drained_names, banned_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those too many.
   std::vector<std::string> names{"(one of many)"};
@@ -94,6 +99,26 @@ struct Farm::State {
   /// Somebody else's result was taken.
   void end_twin(const Lease::Twin& twin, FarmTime now);
 
+  // Trials.
+  std::uint32_t opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const;
+  std::optional<TrialId> next_trial_for(const Worker& worker) const;
+  void give_trial(Worker& worker, const TrialId& id, FarmTime now);
+  void update_trial(const TrialId& id);
+  /// The worker will not say what it was asked for.
+  void withdraw(const Worker& worker, const Lease& lease);
+  /// An opinion on new work, of which so many are wanted, or on work that is on trial.
+  void hear(Worker& worker, const Lease& lease, std::uint32_t wanted, Result result, FarmTime now);
+  void settle_trial(const TrialId& id, std::size_t right, FarmTime now);
+  /// Nobody is asked any more.
+  void end_trial(const TrialId& id, FarmTime now);
+  void drop_trials(FrameId frame, FarmTime now);
+  /// It was wrong too often.
+  void expel(const std::string& name, FarmTime now);
+  /// What it delivered for unfinished jobs waits again; how many tiles.
+  std::size_t lose_all_of(const std::string& name, FarmTime now);
+  void ban(const std::string& name, FarmTime now);
+  void wait_again(Job& job, std::uint32_t frame, const Work& work);
+
   /// Gives the worker again what it has. False: it is not needed, or not from this worker.
   bool reattach(Worker& worker, const HeldTile& held, FarmTime now);
 
@@ -111,6 +136,10 @@ struct Farm::State {
 
   // Results.
   void deliver(Worker& worker, const Lease& lease, Result result, FarmTime now);
+  /// What a delivery tells of the worker; the time that is believed.
+  FarmTime book(Worker& worker, const Lease& lease, const Result& result, FarmTime now);
+  void accept(Job& job, JobFrame& frame, const Work& work, std::vector<PassImage> images, NameId by,
+              FarmTime taken, FarmTime now);
   void finish(Job& job, JobFrame& frame, FarmTime now);
   void compare_late(Worker& worker, const Result& result);
   void refuse(Worker& worker, Job& job, const std::string& reason, FarmTime now);
@@ -142,6 +171,8 @@ struct Farm::State {
   bool read_film(Job& job, JobFrame& frame);
   /// Those that are not in the film are to be rendered again.
   void lose_unread(Job& job, JobFrame& frame, const RayCounters& counters);
+  /// Were committed, and wait again.
+  void lose_passes(Job& job, JobFrame& frame, PassesLost lost);
   /// It was done, and is no longer.
   void reopen(Job& job, JobFrame& frame);
   void unkeep(JobFrame& frame);

@@ -1,6 +1,7 @@
 #include "master/job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "master/farm_record.h"
@@ -112,6 +113,7 @@ JobView view_of(const Job& job, FarmTime now) {
   if (job.started) view.elapsed = job.ended.value_or(now) - *job.started;
   if (job.state == JobState::running) view.eta = job.pace.time_for(view.pixels_total - view.pixels_done, now);
   view.tiles_given_back = job.tiles_given_back, view.tiles_doubled = job.tiles_doubled;
+  view.verification = spec.verification, view.tiles_checked = job.tiles_checked;
   view.time_wasted = job.time_wasted;
   return view;
 }
@@ -149,6 +151,8 @@ std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size f
     if (image.rgb.size() != floats)
       return "pass " + std::to_string(image.pass) + " has " + std::to_string(image.rgb.size()) +
              " floats, not " + std::to_string(floats);
+    if (std::ranges::any_of(image.rgb, [](float value) { return std::isnan(value); }))
+      return "pass " + std::to_string(image.pass) + " has pixels that are no numbers";
   }
   if (delivered != work.passes)
     return "passes " + std::to_string(delivered) + " came, not " + std::to_string(work.passes);
@@ -162,7 +166,7 @@ void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
   for (const PassImage& image : delivery.images) {
     canvas.film->put(delivery.work.tile, image);
     tile.by[image.pass] = by;
-    tile.rays += image.counters.rays();
+    tile.counters[image.pass] = image.counters;
     frame.counters += image.counters;
     job.counters += image.counters;
   }
@@ -175,8 +179,31 @@ void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
   job.pace.advance(now, job.pixels_done);
 }
 
+PassesLost delivered_by(JobId job, const JobFrame& frame, NameId worker) {
+  PassesLost all{{job, frame.number}, {}, {}};
+  const Canvas& canvas = *frame.canvas;
+  const auto known = std::ranges::find(canvas.deliverers, worker);
+  if (known == canvas.deliverers.end()) return all;
+  const auto by = static_cast<std::uint32_t>(known - canvas.deliverers.begin());
+  for (std::uint32_t tile = 0; tile < canvas.deliveries.size(); ++tile) {
+    PassSet passes = 0;
+    for (int pass = 0; pass < pass_count; ++pass) {
+      const auto bit = static_cast<PassSet>(1u << pass);
+      const bool has_pixels = pixel_count(tile_at(canvas.size, tile), pass) > 0;
+      if (!has_pixels || !(canvas.schedule.done(tile) & bit) || canvas.deliveries[tile].by[pass] != by)
+        continue;
+      passes |= bit;
+      all.counters += canvas.deliveries[tile].counters[pass];
+    }
+    if (passes != 0) all.lost.push_back({tile, passes});
+  }
+  return all;
+}
+
 void lose(const Job& job, JobFrame& frame, const PassesLost& damage) {
   for (const Work& work : damage.lost) {
+    for (int pass = 0; pass < pass_count; ++pass)
+      if (work.passes >> pass & 1) frame.canvas->deliveries[work.tile].counters[pass] = {};
     frame.canvas->schedule.undo(work);
     frame.pixels_done -= pixels_in(work, job.spec.settings);
   }
@@ -192,7 +219,7 @@ double expected_rays(const Job& job, const JobFrame& frame, const Work& work) {
   for (std::uint32_t y = row - std::min(row, 1u); y <= std::min(row + 1, rows - 1); ++y)
     for (std::uint32_t x = column - std::min(column, 1u); x <= std::min(column + 1, columns - 1); ++x) {
       const std::uint32_t tile = y * columns + x;
-      rays += frame.canvas->deliveries[tile].rays;
+      for (const RayCounters& counters : frame.canvas->deliveries[tile].counters) rays += counters.rays();
       pixels += pixels_in({tile, frame.canvas->schedule.done(tile)}, settings);
     }
   if (pixels == 0) rays = frame.counters.rays(), pixels = frame.pixels_done;

@@ -28,7 +28,8 @@ struct Canvas {
   struct TileDeliveries {
     std::array<std::uint32_t, pass_count> by{};  // places in `deliverers`
     FarmTime taken{};
-    std::uint64_t rays = 0;
+    std::array<RayCounters, pass_count>
+        counters{};  // after a restart all of a commit stand with its first pass
   };
 
   Size size;
@@ -70,7 +71,7 @@ struct Job {
   Pace pace;
   FarmTime submitted{};
   std::optional<FarmTime> started, ended;
-  std::uint64_t tiles_given_back = 0, tiles_doubled = 0;
+  std::uint64_t tiles_given_back = 0, tiles_doubled = 0, tiles_checked = 0;
   FarmTime time_wasted{};
 };
 
@@ -117,6 +118,8 @@ struct Delivery {
 };
 /// Takes it into the frame's film.
 void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now);
+/// All that the worker delivered of it.
+PassesLost delivered_by(JobId job, const JobFrame& frame, NameId worker);
 /// They are to be rendered again; the sums over the job's frames stay to be made.
 void lose(const Job& job, JobFrame& frame, const PassesLost& damage);
 /// The rays that it will take, as far as its own tile's coarser passes and the tiles around it tell; else the frame, else

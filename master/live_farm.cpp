@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <iterator>
+#include <random>
 
 #include "master/journal/journal.h"
 
 namespace rayfarm {
 namespace {
+
+std::uint64_t drawn() {
+  std::random_device random;
+  return std::uint64_t{random()} << 32 | random();
+}
 
 FarmTime steady_time() { return std::chrono::steady_clock::now().time_since_epoch(); }
 /// Time goes on over the end of a process, and of the PC.
@@ -16,14 +22,15 @@ FarmTime wall_time() { return std::chrono::system_clock::now().time_since_epoch(
 
 }  // namespace
 
-LiveFarm::LiveFarm() : clock_offset_(wall_time() - steady_time()) {}
+LiveFarm::LiveFarm()
+    : clock_offset_(wall_time() - steady_time()), limits_{.secret = drawn()}, farm_(limits_) {}
 
 void LiveFarm::open(const std::filesystem::path& journal) {
   journal_ = std::make_unique<Journal>(journal);
   Journal::Opened opened = journal_->read();
   clock_offset_ = std::max(wall_time(), opened.latest) - steady_time();
   for (const std::string& damage : opened.warnings) note({true, damage, {}});
-  farm_ = Farm({}, std::move(opened.past), now());
+  farm_ = Farm(limits_, std::move(opened.past), now());
   for (const JobId job : opened.suspects) {
     const std::string number = std::to_string(static_cast<std::uint64_t>(job));
     apply([&](Farm& farm, FarmTime now) {

@@ -62,6 +62,7 @@ class LiveFarm {
 
   FarmTime clock_offset_;  // farm's time minus that of the steady clock
   std::unique_ptr<Journal> journal_;
+  FarmLimits limits_;
   Farm farm_;
   EventLog log_;
   std::vector<FarmRecord> unwritten_;

@@ -40,7 +40,7 @@ bool Farm::State::reattach(Worker& worker, const HeldTile& held, FarmTime now) {
     for (auto& [lease_id, lease] : holder.leases) {
       const bool is_it = lease.job == work.job && lease.frame == work.frame && lease.work.tile == work.tile &&
                          (lease.work.passes & ~work.passes) == 0;
-      if (!is_it || lease.twin || holder.id == worker.id) continue;
+      if (!is_it || lease.twin || lease.is_check || holder.id == worker.id) continue;
       give_copy(holder, lease_id, worker, now);
       return true;
     }

@@ -1,5 +1,6 @@
 // A farm built again from what it recorded.
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "master/farm_state.h"
@@ -15,6 +16,8 @@ template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
 
 void set_done(const Job& job, JobFrame& frame, const TileCommitted& commit) {
   const Work work{commit.tile, commit.passes};
@@ -33,7 +36,7 @@ void put_name(Canvas& canvas, const TileCommitted& commit, NameId name) {
   for (int pass = 0; pass < pass_count; ++pass)
     if (commit.passes >> pass & 1) tile.by[pass] = place;
   tile.taken += commit.taken;
-  tile.rays += commit.counters.rays();
+  tile.counters[std::countr_zero(commit.passes)] = commit.counters;
 }
 
 /// The sums over its frames.
@@ -147,6 +150,7 @@ void Farm::State::restore(FarmRecord record) {
             job.state = changed.state, job.spec.priority = changed.priority;
             job.message = std::move(changed.message), job.spec.key = std::move(changed.key);
             job.tiles_given_back = changed.tiles_given_back, job.tiles_doubled = changed.tiles_doubled;
+            job.tiles_checked = changed.tiles_checked;
             job.time_wasted = changed.time_wasted, job.ended = changed.ended;
           },
           [&](const SceneDropped& dropped) {
@@ -166,6 +170,7 @@ void Farm::State::restore(FarmRecord record) {
           },
           [&](const WorkerNamed& named) { id_of_name(named.name); },
           [&](const WorkerDrained& drained) { set_in(drained_names, drained.name, drained.is_drained); },
+          [&](const WorkerJudged& judged) { trust[judged.name] = judged.trust; },
           [&](const WorkerBanned& banned) { set_in(banned_names, banned.name, banned.is_banned); },
       },
       record.fact);

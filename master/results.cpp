@@ -50,8 +50,14 @@ void Farm::receive(WorkerId id, Result result, FarmTime now) {
     state_->end_lease(worker, result.lease, now);
     tell_off(result, *fault);
   }
-  take_lease(worker, result.lease, now);
+  const LeaseId leased_as = result.lease;
+  take_lease(worker, leased_as, now);
   if (lease.twin) state_->end_twin(*lease.twin, now);
+  const std::uint32_t wanted = state_->opinions_wanted_on(worker, leased_as, lease);
+  if (lease.is_check || wanted > 1) {
+    state_->hear(worker, lease, wanted, std::move(result), now);
+    return state_->fill_all(now);
+  }
   state_->deliver(worker, lease, std::move(result), now);
   state_->fill(worker, now);
   if (lease.twin) state_->fill(state_->workers.at(lease.twin->worker), now);
@@ -59,21 +65,30 @@ void Farm::receive(WorkerId id, Result result, FarmTime now) {
 
 void Farm::State::deliver(Worker& worker, const Lease& lease, Result result, FarmTime now) {
   Job& job = jobs.at(lease.job);
-  JobFrame& frame = frame_at(job, lease.frame);
+  const FarmTime taken = book(worker, lease, result, now);
+  accept(job, frame_at(job, lease.frame), lease.work, std::move(result.images), worker.name, taken, now);
+}
+
+FarmTime Farm::State::book(Worker& worker, const Lease& lease, const Result& result, FarmTime now) {
   const FarmTime taken = believed_time(lease, result.seconds, now);
-  const std::uint64_t rays = counters_of(result.images).rays();
-  commit(job, frame, {lease.work, result.images, worker.name, taken}, now);
+  learn_speed(worker, lease, counters_of(result.images).rays(), taken);
+  ++worker.tiles;
+  worker.pixels += lease.samples / jobs.at(lease.job).spec.settings.spp;
+  return taken;
+}
+
+void Farm::State::accept(Job& job, JobFrame& frame, const Work& work, std::vector<PassImage> images,
+                         NameId by, FarmTime taken, FarmTime now) {
+  commit(job, frame, {work, images, by, taken}, now);
+  const RayCounters counters = counters_of(images);
   record(TileCommitted{{job.id, frame.number},
-                       lease.work.tile,
-                       lease.work.passes,
-                       names[static_cast<std::size_t>(worker.name)],
+                       work.tile,
+                       work.passes,
+                       names[static_cast<std::size_t>(by)],
                        taken,
                        now,
-                       counters_of(result.images),
-                       std::move(result.images)});
-  learn_speed(worker, lease, rays, taken);
-  ++worker.tiles;
-  worker.pixels += lease.samples / job.spec.settings.spp;
+                       counters,
+                       std::move(images)});
   ++revision;
   if (is_complete(job, frame)) finish(job, frame, now);
 }

@@ -27,6 +27,7 @@ struct Lease {
     LeaseId lease{};
   };
   std::optional<Twin> twin{};
+  bool is_check = false;  // an opinion on a trial is asked for
 };
 
 struct Worker {

@@ -49,6 +49,19 @@ void Film::put(std::uint32_t tile, const PassImage& image) {
   pixels_done_ += count;
 }
 
+void Film::take_out(std::uint32_t tile, PassSet passes) {
+  assert((done_[tile] & passes) == passes && "the passes must be there");
+  const Tile area = tile_at(size_, tile);
+  for (int pass = 0; pass < pass_count; ++pass) {
+    if (!(passes >> pass & 1)) continue;
+    for_each_pixel(area, pass, [&](std::uint32_t x, std::uint32_t y) {
+      std::fill_n(&rgb_[float_index(size_, x, y)], 3, 0.0f);
+    });
+    pixels_done_ -= pixel_count(area, pass);
+  }
+  done_[tile] &= ~passes;
+}
+
 std::vector<float> Film::pass_pixels(std::uint32_t tile, int pass) const {
   assert(done_[tile] & 1u << pass && "the pass must be there");
   const Tile area = tile_at(size_, tile);

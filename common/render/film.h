@@ -26,6 +26,8 @@ class Film {
   Size size() const { return size_; }
   /// Puts a pass in its place. The image must have pixel_count(tile, pass) pixels.
   void put(std::uint32_t tile, const PassImage& image);
+  /// The passes are there; they are black, and not there, afterwards.
+  void take_out(std::uint32_t tile, PassSet passes);
   PassSet passes_of(std::uint32_t tile) const { return done_[tile]; }
   bool is_complete() const { return pixels_done_ == std::uint64_t{size_.width} * size_.height; }
   std::uint64_t pixels_done() const { return pixels_done_; }

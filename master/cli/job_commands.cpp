@@ -66,6 +66,12 @@ ExitCode list_jobs(const JobArguments& a) {
   return ExitCode::done;
 }
 
+/// Empty when nothing is to be verified.
+std::string verified_text(const json& job) {
+  const std::string verify = text_in(job, "verify");
+  return verify == "none" ? "" : verify + ", " + number_in(job, "tiles_checked") + " tiles checked";
+}
+
 ExitCode show_job(const JobArguments& a) {
   const json job = get_json(job_target(a.id));
   if (a.json) {
@@ -95,6 +101,7 @@ ExitCode show_job(const JobArguments& a) {
       {"lost rays", number_in(counters, "lost")},
       {"tiles given back", number_in(job, "tiles_given_back")},
       {"tiles rendered twice", number_in(job, "tiles_doubled")},
+      {"verified", verified_text(job)},
       {"thread time wasted", clock_text(wasted)},
       {"output", text_in(job, "output")},
       {"scene", text_in(job, "scene_hash")},

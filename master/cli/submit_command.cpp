@@ -26,6 +26,7 @@ struct SubmitArguments {
   PictureOptions picture;
   std::string name, key;
   std::string video;  // of the frames; empty: none
+  std::string verify = "none";
   int priority = 50;
   bool hold = false, watch = false, wait = false, json = false;
 };
@@ -63,6 +64,7 @@ JobSpec spec_of(const SubmitArguments& a, const FrameRange& frames, PreparedScen
   spec.priority = a.priority;
   spec.hold = a.hold;
   spec.key = a.key;
+  spec.verification = parse_verification(a.verify);
   return spec;
 }
 
@@ -170,6 +172,19 @@ void add_submit_command(CLI::App& app, Command& chosen) {
   command->add_option("--name", a.name, "Name of the job (default: the script's)");
   command->add_option("--priority", a.priority, "0 to 99, higher first (default 50)")
       ->check(CLI::Range(0, 99));
+  command
+      ->add_option("--verify", a.verify,
+                   "How far workers are believed: none, audit=P (a share P of their tiles is rendered by "
+                   "somebody else, too) or quorum=N (each tile by N workers); default none")
+      ->type_name("none|audit=P|quorum=N")
+      ->check([](const std::string& text) {
+        try {
+          parse_verification(text);
+          return std::string();
+        } catch (const SettingsError& error) {
+          return std::string(error.what());
+        }
+      });
   command->add_flag("--hold", a.hold, "Start paused");
   command->add_option("--id", a.key, "A key of your own: the same key gives the same job again");
   CLI::Option* watch = command->add_flag("--watch", a.watch, "Show the progress, then write the picture");

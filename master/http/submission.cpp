@@ -96,7 +96,7 @@ int priority_from_json(const json& value) {
 JobSpec job_wishes(const json& body) {
   constexpr std::array known{"scene",       "assets",     "scene_name", "scene_of", "script",
                              "script_name", "parameters", "frames",     "name",     "output",
-                             "priority",    "hold",       "key",        "settings"};
+                             "priority",    "hold",       "key",        "settings", "verify"};
   for (const auto& [name, ignored] : body.items())
     if (std::find(known.begin(), known.end(), name) == known.end()) throw ApiError(400, name + " is unknown");
 
@@ -106,6 +106,7 @@ JobSpec job_wishes(const json& body) {
   spec.key = text_in(body, "key");
   spec.hold = flag_in(body, "hold");
   if (body.contains("priority")) spec.priority = priority_from_json(body["priority"]);
+  if (body.contains("verify")) spec.verification = parse_verification(text_in(body, "verify"));
   spec.parameters = parameters_in(body);
   spec.frames = frames_in(body);
   return spec;
@@ -179,6 +180,7 @@ json to_json(const JobSpec& spec) {
                  {"priority", spec.priority},
                  {"hold", spec.hold},
                  {"key", spec.key},
+                 {"verify", text_of(spec.verification)},
                  {"parameters", spec.parameters},
                  {"settings", to_json(spec.settings)}};
   if (const auto& frames = spec.frames)

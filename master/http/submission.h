@@ -18,11 +18,11 @@ constexpr std::uint64_t largest_scene =
 /// Throws ApiError.
 nlohmann::json parse_json(const std::string& text);
 
-/// {scene, assets, frames, name, output, priority, hold, key, parameters, settings}: only the scene (base64 of
+/// {scene, assets, frames, name, output, priority, hold, key, verify, parameters, settings}: only the scene (base64 of
 /// encode_scene) must be there; assets is a list of hashes, of those that were uploaded. The scene is decoded and
 /// checked. Throws ApiError, SettingsError, SceneError or CodecError.
 JobSpec job_spec(const nlohmann::json& body, AssetStore& store);
-/// All of a submission but its scene and settings. Throws ApiError, also for what no submission has.
+/// All of a submission but its scene and settings. Throws ApiError, also for what no submission has, and SettingsError.
 JobSpec job_wishes(const nlohmann::json& body);
 nlohmann::json to_json(const JobSpec& spec);
 

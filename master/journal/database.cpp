@@ -11,7 +11,7 @@
 namespace rayfarm {
 namespace {
 
-constexpr int schema_version = 1;
+constexpr int schema_version = 2;
 constexpr int patience_ms = 5000;  // for the journal's other connection, which syncs
 
 // jobs      spec and status: rows.h, sealed by the job; is_live: it is being rendered; crashes: in a row
@@ -34,8 +34,14 @@ CREATE TABLE tiles (job INTEGER, frame INTEGER, id INTEGER, body BLOB NOT NULL,
                     PRIMARY KEY (job, frame, id)) WITHOUT ROWID;
 CREATE TABLE pixels (id INTEGER PRIMARY KEY, data BLOB NOT NULL);
 CREATE TABLE workers (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, is_drained INTEGER NOT NULL DEFAULT 0,
-                      is_banned INTEGER NOT NULL DEFAULT 0);
+                      is_banned INTEGER NOT NULL DEFAULT 0, good_in_a_row INTEGER NOT NULL DEFAULT 0,
+                      mismatches INTEGER NOT NULL DEFAULT 0);
 INSERT INTO facts VALUES ('is_running', 0), ('lives', 0), ('writes', 0);
+)";
+
+constexpr auto from_version_1 = R"(
+ALTER TABLE workers ADD COLUMN good_in_a_row INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE workers ADD COLUMN mismatches INTEGER NOT NULL DEFAULT 0;
 )";
 
 /// Its own, so that SQLite gives the write-ahead log the same rights: jobs are nobody else's business.
@@ -62,7 +68,7 @@ void make_schema(SQLite::Database& database, const std::filesystem::path& file) 
   if (version == schema_version) return;
   // Version and tables come in one transaction: there are all of them, or none.
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-  database.exec(schema);
+  database.exec(version == 1 ? from_version_1 : schema);
   database.exec("PRAGMA user_version = " + std::to_string(schema_version));
   transaction.commit();
 }

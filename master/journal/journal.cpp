@@ -200,4 +200,9 @@ void Journal::State::write(const WorkerBanned& banned) {
   database.run("UPDATE workers SET is_banned = ? WHERE name = ?", banned.is_banned, banned.name);
 }
 
+void Journal::State::write(const WorkerJudged& judged) {
+  database.run("UPDATE workers SET good_in_a_row = ?, mismatches = ? WHERE name = ?",
+               judged.trust.good_in_a_row, judged.trust.mismatches, judged.name);
+}
+
 }  // namespace rayfarm

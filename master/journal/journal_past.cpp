@@ -43,7 +43,8 @@ Journal::Opened Journal::read() try {
 }
 
 void Journal::State::read_workers(Opened& opened) {
-  const Query query = database.query("SELECT id, name, is_drained, is_banned FROM workers ORDER BY id");
+  const Query query = database.query(
+      "SELECT id, name, is_drained, is_banned, good_in_a_row, mismatches FROM workers ORDER BY id");
   while (query->executeStep()) {
     const std::string name = query->getColumn(1);
     workers[name] = query->getColumn(0);
@@ -51,6 +52,8 @@ void Journal::State::read_workers(Opened& opened) {
     add(opened, WorkerNamed{name});
     if (query->getColumn(2).getInt()) add(opened, WorkerDrained{name, true});
     if (query->getColumn(3).getInt()) add(opened, WorkerBanned{name, true});
+    const Trust trust{query->getColumn(4).getUInt(), query->getColumn(5).getUInt()};
+    if (trust != Trust{}) add(opened, WorkerJudged{name, trust});
   }
 }
 

@@ -87,6 +87,15 @@ void serialize(Archive& archive, JobRow& row) {
   time(archive, row.job.submitted);
 }
 
+/// Follows a JobRow; those that were written by the first versions of rayfarm have none.
+struct VerificationRow {
+  std::string text;
+};
+template <class Archive>
+void serialize(Archive& archive, VerificationRow& row) {
+  string(archive, row.text);
+}
+
 struct ChangeRow {
   JobChanged change;
 };
@@ -103,12 +112,12 @@ void serialize(Archive& archive, ChangeRow& row) {
 
 /// Follows a ChangeRow; those that were written by the first versions of rayfarm have none.
 struct WasteRow {
-  std::uint64_t tiles_doubled = 0;
+  std::uint64_t tiles_doubled = 0, tiles_checked = 0;
   FarmTime time_wasted{};
 };
 template <class Archive>
 void serialize(Archive& archive, WasteRow& row) {
-  archive(row.tiles_doubled);
+  archive(row.tiles_doubled, row.tiles_checked);
   time(archive, row.time_wasted);
 }
 
@@ -152,18 +161,29 @@ std::optional<ByteView> unseal(ByteView sealed, const RowKey& key) {
   return bytes;
 }
 
-Bytes encode_row(const JobAdded& job) { return encoded(JobRow{job}); }
+Bytes encode_row(const JobAdded& job) {
+  Bytes bytes = encoded(JobRow{job});
+  encode_to(bytes, VerificationRow{text_of(job.spec.verification)});
+  return bytes;
+}
 Bytes encode_row(const JobChanged& job) {
   Bytes bytes = encoded(ChangeRow{job});
-  encode_to(bytes, WasteRow{job.tiles_doubled, job.time_wasted});
+  encode_to(bytes, WasteRow{job.tiles_doubled, job.tiles_checked, job.time_wasted});
   return bytes;
 }
 Bytes encode_row(const FrameRow& frame) { return encoded(frame); }
 Bytes encode_row(const PictureDropped& dropped) { return encoded(DroppedRow{dropped}); }
 
 JobAdded decode_job(JobId id, ByteView bytes) {
-  JobAdded job = decoded<JobRow>(bytes).job;
+  ByteSource source(bytes);
+  JobAdded job = decode_from<JobRow>(source).job;
   job.id = id;
+  if (source.rest().empty()) return job;
+  try {
+    job.spec.verification = parse_verification(decode_from<VerificationRow>(source).text);
+  } catch (const SettingsError& error) {
+    throw CodecError(error.what());
+  }
   return job;
 }
 JobChanged decode_change(JobId id, ByteView bytes) {
@@ -172,7 +192,8 @@ JobChanged decode_change(JobId id, ByteView bytes) {
   change.id = id;
   if (source.rest().empty()) return change;
   const WasteRow waste = decode_from<WasteRow>(source);
-  change.tiles_doubled = waste.tiles_doubled, change.time_wasted = waste.time_wasted;
+  change.tiles_doubled = waste.tiles_doubled, change.tiles_checked = waste.tiles_checked;
+  change.time_wasted = waste.time_wasted;
   return change;
 }
 FrameRow decode_frame(ByteView bytes) { return decoded<FrameRow>(bytes); }

@@ -27,6 +27,10 @@ void expect_same(const JobView& before, const JobView& after) {
   EXPECT_EQ(after.elapsed, before.elapsed);
   EXPECT_EQ(after.thread_time, before.thread_time);
   EXPECT_EQ(after.tiles_given_back, before.tiles_given_back);
+  EXPECT_EQ(after.tiles_doubled, before.tiles_doubled);
+  EXPECT_EQ(after.tiles_checked, before.tiles_checked);
+  EXPECT_EQ(after.time_wasted, before.time_wasted);
+  EXPECT_EQ(after.verification, before.verification);
 }
 
 void expect_same(const FrameView& before, const FrameView& after) {

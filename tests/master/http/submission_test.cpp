@@ -20,6 +20,7 @@ JobSpec job_spec(const json& body) {
 TEST(Submission, ArrivesAsItWasSent) {
   JobSpec sent = small_job();
   sent.priority = 99, sent.hold = true, sent.key = "k";
+  sent.verification = Audit{0.125};
   const JobSpec come = job_spec(parse_json(to_json(sent).dump()));
   EXPECT_EQ(come.name, sent.name);
   EXPECT_EQ(come.output, sent.output);
@@ -29,6 +30,7 @@ TEST(Submission, ArrivesAsItWasSent) {
   EXPECT_EQ(come.priority, sent.priority);
   EXPECT_EQ(come.hold, sent.hold);
   EXPECT_EQ(come.key, sent.key);
+  EXPECT_EQ(come.verification, sent.verification);
 }
 
 void expect_refused(const char* member, const json& value) {
@@ -42,6 +44,8 @@ TEST(Submission, WhatIsWrongIsRefused) {
   expect_refused("priority", -1);
   expect_refused("priority", "high");
   expect_refused("hold", "yes");
+  expect_refused("verify", "audit=2");
+  expect_refused("verify", 2);
   expect_refused("name", 7);
   expect_refused("name", std::string(1001, 'a'));
   expect_refused("settings", {{"width", 0}});

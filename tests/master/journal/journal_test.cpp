@@ -23,6 +23,7 @@ JobSpec full_spec() {
   spec.parameters = {{"depth", "6"}, {"light", "a line\nand another"}};
   spec.assets = {{"asset", std::make_shared<const Bytes>(Bytes{1, 2, 3})}};
   spec.frames = FrameRange{3, 9, 3};
+  spec.verification = Audit{0.25};
   return spec;
 }
 
@@ -102,6 +103,43 @@ TEST(Journal, DeletesWhatTheFarmDrops) {
   EXPECT_EQ(rows(kept.file(), "blobs"), 1);
   Farm before = std::move(kept.farm());
   kept.crash();
+  expect_same(before, kept.farm(), 20s);
+}
+
+TEST(Journal, KnowsWhomToTrustAndWhatWasWasted) {
+  KeptFarm kept;
+  FakeWorker a(kept.farm(), {.name = "a"}), b(kept.farm(), {.name = "b"});
+  JobSpec spec = job_of(four_tiles);
+  spec.verification = Quorum{2};
+  const JobId job = kept.farm().submit(spec, 0s);
+  a.finish_one(1s), b.finish_one(2s), a.finish_one(3s), b.finish_one(4s);
+  kept.farm().pause(job, 6s);
+  const Trust trust = kept.farm().trust_in("a");
+  EXPECT_GT(trust.good_in_a_row, 0u);
+  const JobView before = *kept.farm().job(job, 6s);
+  EXPECT_GT(before.time_wasted, 0s);
+  kept.keep();
+  kept.crash();
+  EXPECT_EQ(kept.farm().trust_in("a"), trust);
+  EXPECT_EQ(kept.farm().job(job, 6s)->verification, Verification(Quorum{2}));
+  EXPECT_EQ(kept.farm().job(job, 6s)->tiles_checked, before.tiles_checked);
+  EXPECT_EQ(kept.farm().job(job, 6s)->time_wasted, before.time_wasted);
+}
+
+TEST(Journal, TakesOverOneOfTheFirstVersion) {
+  KeptFarm kept;
+  live(kept.farm());
+  kept.keep();
+  const Farm before = std::move(kept.farm());
+  kept.close();
+  {
+    SQLite::Database database(kept.file().string(), SQLite::OPEN_READWRITE);
+    database.exec("ALTER TABLE workers DROP COLUMN good_in_a_row");
+    database.exec("ALTER TABLE workers DROP COLUMN mismatches");
+    database.exec("PRAGMA user_version = 1");
+  }
+  kept.open();
+  EXPECT_TRUE(kept.opened().warnings.empty());
   expect_same(before, kept.farm(), 20s);
 }
 

@@ -5,6 +5,7 @@
 #include "master/local_threads.h"
 #include "tests/support/farm_jobs.h"
 #include "tests/support/farm_keys.h"
+#include "tests/support/lying_renderer.h"
 #include "tests/support/master_thread.h"
 #include "tests/support/worker_thread.h"
 
@@ -76,6 +77,25 @@ TEST(FarmAtWork, TracesTheSamePictureAsOneThread) {
   EXPECT_EQ(RunningJob(master, small).finished_film().rgb(),
             rendered(prepare_scene(simple_scene()), small).rgb());
   master.end(local);
+}
+
+TEST(FarmAtWork, BansAWorkerThatLiesByOneUlpAndMakesTheFilmWithoutIt) {
+  MasterThread master;
+  WorkerThread liar(worker_for(master.address(), "liar"), lying(prepare_positions, lie_by_one_ulp));
+  WorkerThread one(worker_for(master.address(), "one"), prepare_positions);
+  WorkerThread two(worker_for(master.address(), "two"), prepare_positions);
+  master.wait_for_workers(3);
+  for (const Verification& verification : {Verification(Audit{1}), Verification(Quorum{2})}) {
+    const JobId id = master.ask([&](Farm& farm, FarmTime now) {
+      JobSpec spec = simple_job({.width = 1280, .height = 640, .spp = 1});
+      spec.verification = verification;
+      return farm.submit(spec, now);
+    });
+    master.wait_until([&](Farm& farm) { return farm.job(id, {})->state == JobState::done; });
+    const auto film = master.ask([&](Farm& farm, FarmTime) { return farm.film(id); });
+    EXPECT_EQ(film->rgb(), rendered(position_tile, {.width = 1280, .height = 640, .spp = 1}).rgb());
+  }
+  EXPECT_EQ(master.ask([](Farm& farm, FarmTime) { return farm.banned(); }), std::vector<std::string>{"liar"});
 }
 
 TEST(FarmAtWork, MakesTheFilmAlthoughAWorkerIsKilledInTheMiddleOfATile) {

@@ -61,6 +61,8 @@ export interface Job {
   eta_seconds: number | null;
   tiles_given_back: number;
   tiles_doubled: number;
+  verify: string;
+  tiles_checked: number;
   seconds_wasted: number;
 }
 

@@ -96,6 +96,13 @@ function Progress({ job }: { job: Job }) {
           </span>
         </Row>
       )}
+      {job.verify !== "none" && (
+        <Row name="Verified">
+          <span title="Tiles on which several had to agree, and did">
+            {many(job.tiles_checked, "tile")} checked ({job.verify})
+          </span>
+        </Row>
+      )}
       {job.tiles_doubled > 0 && (
         <Row name="Doubled">
           <span title="Near the end, idle workers render again what others are slow with; the first result is taken">

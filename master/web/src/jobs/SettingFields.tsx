@@ -1,7 +1,7 @@
 import { many } from "../app/format";
 import { change, declared, faults, form } from "./draft";
 import { Field } from "./Field";
-import { defaultOf, lastFrame, rules, samplers, type NumberName, type SwitchName } from "./submission";
+import { defaultOf, lastFrame, rules, samplers, verifications, type NumberName, type SwitchName } from "./submission";
 
 /// How the picture is made.
 export function SettingFields() {
@@ -66,6 +66,21 @@ export function SettingFields() {
               value={form.value.name}
               onInput={(event) => change({ name: event.currentTarget.value })}
             />
+          )}
+        </Field>
+        <Field label="Workers" hint="those that deliver wrong pixels twice are banned">
+          {(attributes) => (
+            <select
+              {...attributes}
+              value={form.value.verify}
+              onChange={(event) => change({ verify: event.currentTarget.value })}
+            >
+              {Object.entries(verifications).map(([verify, words]) => (
+                <option key={verify} value={verify}>
+                  {words}
+                </option>
+              ))}
+            </select>
           )}
         </Field>
         <NumberField name="priority" hint="0 to 99, higher goes first" />

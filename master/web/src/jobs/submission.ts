@@ -19,6 +19,7 @@ export interface Form {
   sampler: string;
   switches: Record<SwitchName, boolean>;
   name: string;
+  verify: string; // of verifications
   hold: boolean;
 }
 
@@ -34,6 +35,13 @@ export const nothingDeclared: Declared = {
   animation: null,
 };
 
+/// How far workers are believed, as the master has it, and in words.
+export const verifications: Record<string, string> = {
+  none: "are believed",
+  "audit=0.01": "are checked, 1 % of the tiles",
+  "audit=0.1": "are checked, 10 % of the tiles",
+  "quorum=2": "render each tile twice",
+};
 export const samplers = ["sobol", "jitter", "regular", "random", "adapt1"];
 export const largestScript = 1024 * 1024; // bytes
 const mostMegapixels = 500;
@@ -78,6 +86,7 @@ export const emptyForm = (): Form => ({
   sampler: "sobol",
   switches: { shadows: true, reflections: true, refractions: true },
   name: "",
+  verify: "none",
   hold: false,
 });
 
@@ -103,6 +112,7 @@ export function formOf(job: Job): Form {
     sampler: s.sampler,
     switches: { shadows: s.shadows, reflections: s.reflections, refractions: s.refractions },
     name: job.name,
+    verify: job.verify in verifications ? job.verify : "none",
   };
 }
 
@@ -217,6 +227,7 @@ export function bodyOf(form: Form, declared: Declared): Record<string, unknown> 
     ...(form.source !== "job" && form.frames.trim() !== "" && { frames: framesOf(form.frames) }),
     ...(form.name.trim() && { name: form.name.trim() }),
     ...(form.numbers.priority.trim() && { priority: Number(form.numbers.priority) }),
+    ...(form.verify !== "none" && { verify: form.verify }),
     ...(form.hold && { hold: true }),
   };
 }
