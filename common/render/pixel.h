@@ -97,4 +97,9 @@ std::optional<PixelSum> pixel_sum(Tracer<Observer>& tracer, const RenderSettings
   return complete ? std::optional(sum) : std::nullopt;
 }
 
+/// What pictures are rendered with: in one place (render.cpp), so that it is the same code whoever else watches.
+extern template class Tracer<CountingObserver>;
+extern template std::optional<PixelSum> pixel_sum(Tracer<CountingObserver>&, const RenderSettings&, Pixel,
+                                                  const std::function<bool()>&);
+
 }  // namespace rayfarm

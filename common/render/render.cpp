@@ -4,6 +4,10 @@
 
 namespace rayfarm {
 
+template class Tracer<CountingObserver>;
+template std::optional<PixelSum> pixel_sum(Tracer<CountingObserver>&, const RenderSettings&, Pixel,
+                                           const std::function<bool()>&);
+
 std::optional<std::vector<PassImage>> render_tile(const World& world, const RenderSettings& settings,
                                                   std::uint32_t tile, PassSet passes,
                                                   const std::function<bool()>& stop) {

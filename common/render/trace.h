@@ -17,12 +17,24 @@
 
 namespace rayfarm {
 
+/// Who heeds primary rays alone watches them, beside the observer. Pictures are rendered by the same code with and
+/// without one: it is asked for once a primary ray.
+class PrimaryWatch {
+ public:
+  /// The ray has ended there; nowhere when it hits nothing or the camera has none.
+  virtual void ended(const std::optional<Hit>& hit) = 0;
+
+ protected:
+  ~PrimaryWatch() = default;
+};
+
 /// What tracing needs, whoever watches.
 struct TracerState {
   const World::Parts& world;
   const RenderSettings& settings;
   CameraRays camera;
   Vec3d background;
+  PrimaryWatch* watch = nullptr;
   std::vector<SampledLight> lights{};  // of the sample
   WorldWorkspace workspace{};
   std::function<bool()> stop{};
@@ -49,6 +61,7 @@ class Tracer {
     const std::optional<Ray> ray = state_.camera.ray(x, y);
     if (!ray) {
       observer.no_ray();
+      if (state_.watch) state_.watch->ended(std::nullopt);
       return {};
     }
     place_lights(light_point);
@@ -56,7 +69,7 @@ class Tracer {
     return radiance<RayKind::primary>(*ray, 0, 1.0);
   }
 
-  /// The same, while somebody else watches too.
+  /// The same, while another observer is told, too.
   template <class LightPoint, class Other>
   Vec3d radiance(double x, double y, LightPoint&& light_point, Other& other) {
     return Tracer<Both<Observer, Other>, TracerState&>({observer, other}, state_).radiance(x, y, light_point);
@@ -78,6 +91,9 @@ class Tracer {
     state_.stop = std::forward<Stop>(stop);
   }
   bool is_stopped() const { return state_.stopped; }
+
+  /// Null: nobody. It must outlive the tracer.
+  void watch_primary_rays(PrimaryWatch* watch) { state_.watch = watch; }
 
  private:
   static constexpr int rays_between_questions = 256;
@@ -116,6 +132,7 @@ class Tracer {
     const RayQuery query(ray);
     const std::optional<Hit> hit = nearest_hit(query);
     observer.traced(kind, ray, depth, importance, hit);
+    if (kind == RayKind::primary && state_.watch) state_.watch->ended(hit);
     Vec3d color = hit ? radiance_at(*hit, ray, depth, importance) : radiance_of_nothing(ray);
     for (std::uint32_t i = 0; i < state_.world.glows.size(); ++i)
       if (const std::optional<Vec3d> glow = glow_along(state_.world.glows[i], query, hit)) {

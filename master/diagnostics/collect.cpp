@@ -2,11 +2,15 @@
 
 namespace rayfarm {
 
-void PixelObserver::met(const std::optional<Hit>& hit) {
-  if (is_adaptive_) return keep(hit);
-  if (hit) surfaces_.add(*hit, 1);
+void PixelWatch::ended(const std::optional<Hit>& hit) {
+  if (is_adaptive_)
+    keep(hit);
+  else if (hit)
+    met(*hit);
 }
 
-void PixelObserver::keep(const std::optional<Hit>& hit) { ends_.push_back(hit); }
+void PixelWatch::met(const Hit& hit) { surfaces_.add(hit, 1); }
+
+void PixelWatch::keep(const std::optional<Hit>& hit) { ends_.push_back(hit); }
 
 }  // namespace rayfarm

@@ -8,39 +8,36 @@
 
 namespace rayfarm {
 
-/// Counts rays and notes the surfaces of one pixel after another.
-class PixelObserver : public CountingObserver {
+/// Notes the surfaces of one pixel after another.
+class PixelWatch : public PrimaryWatch {
  public:
-  PixelObserver(const World& world, const RenderSettings& settings, Reduction reduction)
+  PixelWatch(const World& world, const RenderSettings& settings, Reduction reduction)
       : surfaces_(world, reduction),
         all_weight_(pixel_weight(settings)),
         is_adaptive_(is_adaptive(settings.sampler)) {}
 
-  void begin_pixel() {
+  /// Of the pixels before it, so much has been counted.
+  void begin_pixel(const RayCounters& counters) {
     before_ = counters;
     surfaces_.clear();
     ends_.clear();
   }
 
-  void traced(RayKind kind, const Ray& ray, std::uint32_t depth, double importance,
-              const std::optional<Hit>& hit) {
-    CountingObserver::traced(kind, ray, depth, importance, hit);
-    if (kind == RayKind::primary) met(hit);
-  }
-  void no_ray() { met(std::nullopt); }
+  void ended(const std::optional<Hit>& hit) override;
 
-  /// To be called for each sample that visit_samples() visits.
+  /// To be called for each sample of an adaptive sampler when the pixel's are visited: then their weights are known.
   void visited(const TakenSample& sample) {
-    if (is_adaptive_ && ends_[sample.number]) surfaces_.add(*ends_[sample.number], sample.weight);
+    if (ends_[sample.number]) surfaces_.add(*ends_[sample.number], sample.weight);
   }
 
   /// What is known of the pixel now; the caller adds the time.
-  PixelFacts facts() const { return {counters - before_, surfaces_.reduced(all_weight_), all_weight_}; }
-  const PixelSurfaces& surfaces() const { return surfaces_; }
+  PixelFacts facts(const RayCounters& counters) {
+    return {counters - before_, surfaces_.reduced(all_weight_), all_weight_};
+  }
 
  private:
-  /// Out of line, so that the tracer's code stays as it is for who watches nothing.
-  void met(const std::optional<Hit>& hit);
+  // Out of line: most rays end nowhere or where the one before did.
+  [[gnu::noinline]] void met(const Hit& hit);
   /// Samples of an adaptive sampler have their weight only when all of the pixel's are traced.
   [[gnu::noinline]] void keep(const std::optional<Hit>& hit);
 
@@ -50,5 +47,18 @@ class PixelObserver : public CountingObserver {
   RayCounters before_;
   std::vector<std::optional<Hit>> ends_;  // of an adaptive sampler, by number
 };
+
+/// As pixel_sum(), of a tracer whose primary rays the watch watches; begin_pixel() and facts() are the caller's.
+template <class Observer, class Stop>
+std::optional<PixelSum> watched_sum(Tracer<Observer>& tracer, const RenderSettings& settings, Pixel pixel,
+                                    const Stop& stop, PixelWatch& watch) {
+  if (!is_adaptive(settings.sampler)) return pixel_sum(tracer, settings, pixel, stop);
+  PixelSum sum;
+  const bool complete = visit_samples(tracer, settings, pixel, stop, [&](const TakenSample& sample) {
+    sum.add(sample.color, sample.weight);
+    watch.visited(sample);
+  });
+  return complete ? std::optional(sum) : std::nullopt;
+}
 
 }  // namespace rayfarm

@@ -1,43 +1,40 @@
 #include "master/diagnostics/collecting_render.h"
 
-#include <chrono>
-
 #include "common/render/render.h"
 #include "common/render/render_passes.h"
 #include "master/diagnostics/collect.h"
+#include "master/diagnostics/ticks.h"
 
 namespace rayfarm {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// The cost of a pixel is what the clock says since the one before; who wants no cost does not look at it.
+/// The cost of a pixel is what has passed since the one before; who wants no cost does not look at it.
 class Stopwatch {
  public:
-  explicit Stopwatch(bool runs) : runs_(runs) { lap(); }
+  explicit Stopwatch(bool runs) : rate_(runs ? seconds_per_tick() : 0) { lap(); }
   double lap() {
-    if (!runs_) return 0;
-    const Clock::time_point before = last_;
-    last_ = Clock::now();
-    return std::chrono::duration<double>(last_ - before).count();
+    if (rate_ == 0) return 0;
+    const std::int64_t before = last_;
+    last_ = ticks();
+    return rate_ * static_cast<double>(last_ - before);
   }
 
  private:
-  bool runs_;
-  Clock::time_point last_;
+  double rate_;
+  std::int64_t last_ = 0;
 };
 
 }  // namespace
 
 CollectingRender::CollectingRender(const World& world, const RenderSettings& settings,
                                    const std::vector<const MapKind*>& maps)
-    : world_(world), settings_(settings), view_(view_of(world, settings, false)) {
+    : world_(world), settings_(settings), view_(view_of(world, settings, false)), into_(all_maps().size()) {
   const std::size_t pixels = std::size_t{settings.width} * settings.height;
   for (const MapKind* kind : maps) {
     is_timed_ = is_timed_ || kind->source == MapSource::time;
     maps_.push_back({{settings.width, settings.height}, kind->channels.size(), {}});
     maps_.back().values.resize(pixels * kind->channels.size());
-    outlets_.push_back({kind->put, maps_.back().values.data(), kind->channels.size()});
+    into_[static_cast<std::size_t>(kind - all_maps().data())] = maps_.back().values.data();
   }
 }
 
@@ -50,19 +47,11 @@ void CollectingRender::also_collect(CloudFile& cloud) {
 
 CollectingRender::Images CollectingRender::render_tile(std::uint32_t tile, PassSet passes,
                                                        const std::function<bool()>& stop) {
-  if (!cloud_ && outlets_.empty()) return rayfarm::render_tile(world_, settings_, tile, passes, stop);
-  const PixelObserver pixels(world_, settings_, Reduction::majority);
-  if (!cloud_) return render_maps(pixels, tile, passes, stop);
-
+  if (!cloud_ && maps_.empty()) return rayfarm::render_tile(world_, settings_, tile, passes, stop);
+  if (!cloud_) return render_passes_by(Tracer<CountingObserver>(world_, settings_), tile, passes, stop);
   CloudPart part(*cloud_, ranks_[tile]);
-  Images images;
-  if (outlets_.empty()) {
-    Tracer<WithCloud<CountingObserver>> tracer(world_, settings_, {{}, &part});
-    images = render_passes(tracer, settings_, tile, passes,
-                           [&](Pixel pixel) { return pixel_sum(tracer, settings_, pixel, stop); });
-  } else {
-    images = render_maps(WithCloud<PixelObserver>{pixels, &part}, tile, passes, stop);
-  }
+  Images images = render_passes_by(Tracer<WithCloud<CountingObserver>>(world_, settings_, {{}, &part}), tile,
+                                   passes, stop);
   if (images)
     part.end();
   else
@@ -70,29 +59,26 @@ CollectingRender::Images CollectingRender::render_tile(std::uint32_t tile, PassS
   return images;
 }
 
-template <class Observer>
-CollectingRender::Images CollectingRender::render_maps(Observer observer, std::uint32_t tile, PassSet passes,
-                                                       const std::function<bool()>& stop) {
-  Tracer<Observer> tracer(world_, settings_, std::move(observer));
-  Stopwatch watch(is_timed_);
+template <class Tracer>
+CollectingRender::Images CollectingRender::render_passes_by(Tracer tracer, std::uint32_t tile, PassSet passes,
+                                                            const std::function<bool()>& stop) {
+  if (maps_.empty())
+    return render_passes(tracer, settings_, tile, passes,
+                         [&](Pixel pixel) { return pixel_sum(tracer, settings_, pixel, stop); });
+  PixelWatch watch(world_, settings_, Reduction::majority);
+  tracer.watch_primary_rays(&watch);
+  Stopwatch stopwatch(is_timed_);
   return render_passes(tracer, settings_, tile, passes, [&](Pixel pixel) {
-    tracer.observer.begin_pixel();
-    std::optional<PixelSum> sum{std::in_place};
-    const bool complete = visit_samples(tracer, settings_, pixel, stop, [&](const TakenSample& sample) {
-      sum->add(sample.color, sample.weight);
-      tracer.observer.visited(sample);
-    });
-    if (!complete) return std::optional<PixelSum>();
-    PixelFacts facts = tracer.observer.facts();
-    facts.seconds = watch.lap();
-    put(pixel, facts);
+    const std::size_t place = std::size_t{pixel.y} * settings_.width + pixel.x;
+    fetch_all(place, into_);
+    watch.begin_pixel(tracer.observer.counters);
+    std::optional<PixelSum> sum = watched_sum(tracer, settings_, pixel, stop, watch);
+    if (!sum) return sum;
+    PixelFacts facts = watch.facts(tracer.observer.counters);
+    facts.seconds = stopwatch.lap();
+    put_all(facts, view_, place, into_);
     return sum;
   });
-}
-
-void CollectingRender::put(Pixel pixel, const PixelFacts& facts) {
-  const std::size_t place = std::size_t{pixel.y} * settings_.width + pixel.x;
-  for (const Outlet& outlet : outlets_) outlet.put(facts, view_, outlet.values + place * outlet.channels);
 }
 
 }  // namespace rayfarm

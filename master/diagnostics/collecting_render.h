@@ -12,7 +12,7 @@ namespace rayfarm {
 
 class CollectingRender {
  public:
-  /// World and settings must outlive it. Maps as map_of() makes them, for the kinds' majorities.
+  /// World and settings must outlive it. Maps as map_of() makes them, for the kinds' majorities; no kind twice.
   CollectingRender(const World& world, const RenderSettings& settings,
                    const std::vector<const MapKind*>& maps);
   /// Points go to `cloud`, which must outlive this, a rank for each tile in the order of centre_first().
@@ -28,23 +28,16 @@ class CollectingRender {
 
  private:
   using Images = std::optional<std::vector<PassImage>>;
-  template <class Observer>
-  Images render_maps(Observer observer, std::uint32_t tile, PassSet passes,
-                     const std::function<bool()>& stop);
-  void put(Pixel pixel, const PixelFacts& facts);
+  template <class Tracer>
+  Images render_passes_by(Tracer tracer, std::uint32_t tile, PassSet passes,
+                          const std::function<bool()>& stop);
 
   const World& world_;
   const RenderSettings& settings_;
   MapView view_;
   bool is_timed_ = false;
-  std::vector<Map> maps_;  // each pixel is written by one thread
-  /// Where a map's values go.
-  struct Outlet {
-    decltype(MapKind::put) put;
-    float* values;
-    std::size_t channels;
-  };
-  std::vector<Outlet> outlets_;  // of maps_
+  std::vector<Map> maps_;     // each pixel is written by one thread
+  std::vector<float*> into_;  // where the values of each map of all_maps() go; null: nowhere
   CloudFile* cloud_ = nullptr;
   std::vector<std::uint32_t> ranks_;  // of the tiles, by number
 };

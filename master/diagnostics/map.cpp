@@ -37,18 +37,22 @@ PixelMapper::PixelMapper(const World& world, const RenderSettings& settings, con
     : settings_(settings),
       request_(request),
       view_(view_of(world, settings, request.compatible)),
-      tracer_(world, settings, PixelObserver(world, settings, request.reduction)) {
+      tracer_(world, settings),
+      watch_(world, settings, request.reduction) {
   assert(request.kind->put && "the farm has the values of this map");
+  tracer_.watch_primary_rays(&watch_);
 }
 
 std::optional<PixelFacts> PixelMapper::facts(Pixel pixel, const std::function<bool()>& stop) {
   // Where an adaptive sampler puts its samples depends on all that they show.
   const bool first_hits_do = request_.kind->source == MapSource::surfaces && !is_adaptive(settings_.sampler);
-  tracer_.observer.begin_pixel();
+  watch_.begin_pixel(tracer_.observer.counters);
   const bool is_timed = request_.kind->source == MapSource::time;  // to ask for the time is a system call
   const double begin = is_timed ? thread_seconds() : 0;
-  if (!(first_hits_do ? trace_first_hits(pixel, stop) : trace_all(pixel, stop))) return std::nullopt;
-  PixelFacts facts = tracer_.observer.facts();
+  const bool complete = first_hits_do ? trace_first_hits(pixel, stop)
+                                      : watched_sum(tracer_, settings_, pixel, stop, watch_).has_value();
+  if (!complete) return std::nullopt;
+  PixelFacts facts = watch_.facts(tracer_.observer.counters);
   if (is_timed) facts.seconds = thread_seconds() - begin;
   return facts;
 }
@@ -59,19 +63,15 @@ bool PixelMapper::put(Pixel pixel, float* into, const std::function<bool()>& sto
   return known.has_value();
 }
 
-bool PixelMapper::trace_all(Pixel pixel, const std::function<bool()>& stop) {
-  return visit_samples(tracer_, settings_, pixel, stop,
-                       [&](const TakenSample& sample) { tracer_.observer.visited(sample); });
-}
-
 bool PixelMapper::trace_first_hits(Pixel pixel, const std::function<bool()>& stop) {
   constexpr std::uint32_t samples_between_questions = 256;
   const PixelSampler sampler(settings_, pixel);
   for (std::uint32_t s = 0; s < settings_.spp; ++s) {
     if (s % samples_between_questions == 0 && stop()) return false;
     const Sample2D place = sampler.sample(s, 0);
-    tracer_.observer.traced(RayKind::primary, {}, 0, 1,
-                            tracer_.first_hit(pixel.x + place.u, pixel.y + place.v));
+    const std::optional<Hit> hit = tracer_.first_hit(pixel.x + place.u, pixel.y + place.v);
+    tracer_.observer.traced(RayKind::primary, {}, 0, 1, hit);
+    watch_.ended(hit);
   }
   return true;
 }

@@ -33,6 +33,7 @@ class PixelMapper {
  public:
   /// The kind must have values without a farm. World and settings must outlive the mapper.
   PixelMapper(const World& world, const RenderSettings& settings, const MapRequest& request);
+  PixelMapper(const PixelMapper&) = delete;
 
   /// What its samples say of the pixel; nothing when stop() said so.
   std::optional<PixelFacts> facts(Pixel pixel, const std::function<bool()>& stop);
@@ -41,12 +42,12 @@ class PixelMapper {
 
  private:
   bool trace_first_hits(Pixel pixel, const std::function<bool()>& stop);
-  bool trace_all(Pixel pixel, const std::function<bool()>& stop);
 
   const RenderSettings& settings_;
   MapRequest request_;
   MapView view_;
-  Tracer<PixelObserver> tracer_;
+  Tracer<CountingObserver> tracer_;
+  PixelWatch watch_;
 };
 
 /// Nothing is returned when stop() said so; it is asked from all threads.

@@ -17,6 +17,10 @@ constexpr Names<3> normal{"N.X", "N.Y", "N.Z"}, camera_normal{"Nc.X", "Nc.Y", "N
 
 void put_number(double value, float* into) { *into = static_cast<float>(value); }
 
+void put_count(std::uint64_t count, float* into) {
+  *into = static_cast<float>(static_cast<std::int64_t>(count));
+}
+
 void put_vector(const Vec3d& v, float* into) {
   for (int c = 0; c < 3; ++c) into[c] = static_cast<float>(v[c]);
 }
@@ -24,8 +28,9 @@ void put_vector(const Vec3d& v, float* into) {
 constexpr Vec3d nowhere{infinity, infinity, infinity};
 
 Vec3d camera_normal_of(const Surface& s, const MapView& view) {
-  if (view.compatible) return normalized(view.eye - s.point - s.normal);
-  return {dot(s.normal, view.axes.right), dot(s.normal, view.axes.up), dot(s.normal, view.axes.forward)};
+  if (view.compatible) return normalized(view.eye - s.point() - s.normal());
+  const Vec3d normal = s.normal();
+  return {dot(normal, view.axes.right), dot(normal, view.axes.up), dot(normal, view.axes.forward)};
 }
 
 constexpr MapKind maps[] = {
@@ -37,7 +42,7 @@ constexpr MapKind maps[] = {
      .scale = MapScale::depth,
      .reduces = true,
      .put = [](const PixelFacts& p, const MapView&,
-               float* into) { put_number(p.surface ? p.surface->distance : infinity, into); }},
+               float* into) { put_number(p.surface ? p.surface->distance() : infinity, into); }},
     {.name = "normal",
      .title = "Normal",
      .unit = "unit vector, world axes",
@@ -46,7 +51,7 @@ constexpr MapKind maps[] = {
      .scale = MapScale::normal,
      .reduces = true,
      .put = [](const PixelFacts& p, const MapView&,
-               float* into) { put_vector(p.surface ? p.surface->normal : nowhere, into); }},
+               float* into) { put_vector(p.surface ? p.surface->normal() : nowhere, into); }},
     {.name = "normal-camera",
      .title = "Normal, camera",
      .unit = "unit vector, the camera's right, up and forward; compatible: world axes",
@@ -74,8 +79,7 @@ constexpr MapKind maps[] = {
      .unit = "rays",
      .help = "primary rays that hit something",
      .channels = primary,
-     .put = [](const PixelFacts& p, const MapView&,
-               float* into) { put_number(static_cast<double>(p.rays.primary_hits), into); }},
+     .put = [](const PixelFacts& p, const MapView&, float* into) { put_count(p.rays.primary_hits, into); }},
     {.name = "all-rays",
      .title = "All rays",
      .unit = "rays",
@@ -86,15 +90,14 @@ constexpr MapKind maps[] = {
      .put =
          [](const PixelFacts& p, const MapView& view, float* into) {
            const std::uint64_t hits = p.rays.primary_hits + p.rays.secondary_hits;
-           put_number(static_cast<double>(view.compatible ? hits : hits + p.rays.shadow), into);
+           put_count(view.compatible ? hits : hits + p.rays.shadow, into);
          }},
     {.name = "samples",
      .title = "Samples",
      .unit = "rays",
      .help = "primary rays",
      .channels = samples,
-     .put = [](const PixelFacts& p, const MapView&,
-               float* into) { put_number(static_cast<double>(p.rays.primary), into); }},
+     .put = [](const PixelFacts& p, const MapView&, float* into) { put_count(p.rays.primary, into); }},
     {.name = "cost",
      .title = "Cost",
      .unit = "seconds",
@@ -111,7 +114,31 @@ constexpr MapKind maps[] = {
      .source = MapSource::farm},
 };
 
+/// The compiler knows what it calls here: the maps of a pixel take a third of the time, and share what they ask of
+/// its surface.
+template <std::size_t i>
+void put_one(const PixelFacts& pixel, const MapView& view, std::size_t place, float* into) {
+  if constexpr (maps[i].source != MapSource::farm)
+    if (into) maps[i].put(pixel, view, into + place * maps[i].channels.size());
+}
+
+template <std::size_t i>
+void fetch_one(std::size_t place, const float* into) {
+  if constexpr (maps[i].source != MapSource::farm)
+    if (into) __builtin_prefetch(into + place * maps[i].channels.size(), 1);
+}
+
 }  // namespace
+
+void fetch_all(std::size_t place, std::span<float* const> into) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) { (fetch_one<i>(place, into[i]), ...); }
+  (std::make_index_sequence<std::size(maps)>());
+}
+
+void put_all(const PixelFacts& pixel, const MapView& view, std::size_t place, std::span<float* const> into) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) { (put_one<i>(pixel, view, place, into[i]), ...); }
+  (std::make_index_sequence<std::size(maps)>());
+}
 
 std::span<const MapKind> all_maps() { return maps; }
 

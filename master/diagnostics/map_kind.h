@@ -25,12 +25,12 @@ enum class MapSource : std::uint8_t {
 /// How values are shown.
 enum class MapScale : std::uint8_t { depth, count, normal, label };  // label: numbers that stand for names
 
-/// What is known of a pixel when it has been traced.
+/// What is known of a pixel when it has been traced, until the next one is.
 struct PixelFacts {
-  RayCounters rays;                // of source surfaces: primary and primary_hits alone
-  std::optional<Surface> surface;  // as reduced; none where the pixel shows nothing
-  std::uint64_t weight = 0;        // of all its samples
-  double seconds = 0;              // of source time
+  RayCounters rays;                  // of source surfaces: primary and primary_hits alone
+  const Surface* surface = nullptr;  // as reduced; null where the pixel shows nothing
+  std::uint64_t weight = 0;          // of all its samples
+  double seconds = 0;                // of source time
 };
 
 /// What a map's values refer to beside the pixel.
@@ -52,6 +52,11 @@ struct MapKind {
 };
 
 std::span<const MapKind> all_maps();
+/// The pixel's values of several maps at once: into[i] is where all_maps()[i] has its values, null where it is not
+/// wanted; they are put at channels.size() * place.
+void put_all(const PixelFacts& pixel, const MapView& view, std::size_t place, std::span<float* const> into);
+/// Tells the processor that they will be put: it waits for memory else, once a pixel and map.
+void fetch_all(std::size_t place, std::span<float* const> into);
 const MapKind* map_named(std::string_view name);  // "depth", "normal-camera", ...; null: there is none
 
 /// "depth, normal, ... or cost".

@@ -7,8 +7,11 @@
 namespace rayfarm {
 namespace {
 
-FlatFaces flat_faces_of(const Solid& solid) {
-  return std::visit([](const auto& s) { return s.flat_faces; }, solid);
+/// A normal of a leaf that has caps: along its axis for the caps, never for the side.
+bool is_of_cap(const Leaf& leaf, const Vec3d& normal) {
+  const Vec3d& axis = leaf.row[2];
+  const double along = dot(normal, axis);
+  return along * along > (1 - 1e-12) * dot(axis, axis);
 }
 
 constexpr std::array<std::string_view, 7> names{"majority", "second",  "third", "fourth",
@@ -26,144 +29,121 @@ std::optional<Reduction> reduction_named(std::string_view name) {
 
 std::string_view name_of(Reduction reduction) { return names[static_cast<std::size_t>(reduction)]; }
 
-PixelSurfaces::Sums& PixelSurfaces::Sums::operator+=(const Sums& o) {
-  weight += o.weight, distance += o.distance;
-  point += o.point, normal += o.normal;
+Surface& Surface::operator+=(const Surface& o) {
+  weight += o.weight, distances += o.distances;
+  points += o.points, normals += o.normals;
   return *this;
 }
 
-Surface PixelSurfaces::Sums::mean(const Glimpse& any) const {
-  const auto all = static_cast<double>(weight);
-  // Opposite normals cancel out; then one of them stands for all.
-  const bool cancelled = normal == Vec3d{};
-  return {any.leaf, weight, distance / all, point * (1 / all), cancelled ? any.normal : normalized(normal)};
-}
-
-void PixelSurfaces::clear() {
-  count_ = last_ = 0;
-  rest_ = {};
-  closest_.t = infinity;
-  samples_.clear();
-}
-
 void PixelSurfaces::keep(const Hit& sample, std::uint32_t weight) {
-  if (sample.t < closest_.t) closest_ = sample;
-  if (reduction_ == Reduction::median) samples_.push_back({sample, weight});
+  const bool keeps_all = reduction_ == Reduction::median;
+  if (!keeps_all && !kept_.empty() && sample.t >= kept_[0].first.t) return;
+  if (keeps_all || kept_.empty()) kept_.emplace_back();
+  begin(kept_.back(), sample, keeps_all ? weight : 1);
 }
 
 void PixelSurfaces::find_and_add(const Hit& sample, std::uint32_t weight) {
-  const auto add_to = [&](std::size_t i) {
-    ranks_[i].sums.add(sample, weight);
+  for (std::size_t n = 0; n < count_; ++n) {
+    const std::size_t i = (last_ + n) % count_;
+    if (!shows(ranks_[i].first, sample)) continue;
+    ranks_[i].add(sample, weight);
     last_ = i;
-  };
-  if (last_ < count_ && shows(ranks_[last_], sample)) return add_to(last_);
-  for (std::size_t i = 0; i < count_; ++i)
-    if (i != last_ && shows(ranks_[i], sample)) return add_to(i);
-  add_new(sample, weight);
-}
-
-bool PixelSurfaces::shows(const Rank& rank, const Hit& sample) const {
-  if (plainly_shows(rank, sample)) return true;
-  return rank.flat_faces == FlatFaces::caps && is_of_leaf(rank, sample) && !rank.is_cap && !is_cap(sample) &&
-         on_one_sheet(rank.first, sample);
-}
-
-void PixelSurfaces::add_new(const Hit& sample, std::uint32_t weight) {
-  std::uint64_t set_off = 0;
-  if (count_ < most) {
-    last_ = count_++;
-  } else {
-    const auto weakest = std::min_element(ranks_.begin(), ranks_.end(), [](const Rank& a, const Rank& b) {
-      return a.lead() != b.lead() ? a.lead() < b.lead() : a.sums.weight < b.sums.weight;
-    });
-    set_off = std::min<std::uint64_t>(weight, weakest->lead());
-    for (Rank& rank : ranks_) rank.set_off += set_off;
-    if (set_off == weight) return rest_.add(sample, weight);
-    rest_ += weakest->sums;
-    last_ = static_cast<std::size_t>(weakest - ranks_.begin());
+    return;
   }
-  Rank& rank = ranks_[last_];
-  rank.first = Glimpse(sample);
-  rank.flat_faces = flat_faces_of(world_->leaves[sample.leaf].solid);
-  rank.is_cap = rank.flat_faces == FlatFaces::caps && is_cap(sample);
-  rank.sums = {};
-  rank.sums.add(sample, weight);
-  rank.set_off = set_off;
+  if (count_ == most) return displace(sample, weight);
+  last_ = count_++;
+  begin(ranks_[last_], sample, weight);
 }
 
-bool PixelSurfaces::is_cap(const Hit& sample) const {
-  const Vec3d& axis =
-      world_->leaves[sample.leaf].row[2];  // normals of the caps lie along it, those of the side never
-  const double along = dot(sample.normal, axis);
-  return along * along > (1 - 1e-12) * dot(axis, axis);
+bool PixelSurfaces::shows(const Glimpse& first, const Hit& sample) const {
+  if (plainly_shows(first, sample)) return true;
+  if (first.flat_faces != FlatFaces::caps || !is_of_leaf(first, sample)) return false;
+  const Leaf& leaf = world_->leaves[sample.leaf];
+  return !is_of_cap(leaf, first.normal) && !is_of_cap(leaf, sample.normal) && on_one_sheet(first, sample);
 }
 
-std::vector<Surface> PixelSurfaces::ranked() const {
-  std::vector<Surface> surfaces;
-  for (std::size_t i = 0; i < count_; ++i) surfaces.push_back(ranks_[i].sums.mean(ranks_[i].first));
-  std::sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.distance < b.distance;
+void PixelSurfaces::displace(const Hit& sample, std::uint32_t weight) {
+  std::size_t weakest = 0;
+  for (std::size_t i = 1; i < most; ++i)
+    if (lead(i) < lead(weakest) || (lead(i) == lead(weakest) && ranks_[i].weight < ranks_[weakest].weight))
+      weakest = i;
+  const std::uint64_t less = std::min<std::uint64_t>(weight, lead(weakest));
+  for (std::uint64_t& set_off : set_off_) set_off += less;
+  if (less == weight) return rest_.add(sample, weight);
+  rest_ += ranks_[weakest];
+  begin(ranks_[weakest], sample, weight);
+  set_off_[weakest] = less;
+  last_ = weakest;
+}
+
+std::vector<const Surface*> PixelSurfaces::in_order() const {
+  std::vector<const Surface*> surfaces;
+  for (std::size_t i = 0; i < count_; ++i) surfaces.push_back(&ranks_[i]);
+  std::sort(surfaces.begin(), surfaces.end(), [](const Surface* a, const Surface* b) {
+    return a->weight != b->weight ? a->weight > b->weight : a->distance() < b->distance();
   });
   return surfaces;
 }
 
-PixelSurfaces::Sums PixelSurfaces::all_sums() const {
-  Sums all = rest_;
-  for (std::size_t i = 0; i < count_; ++i) all += ranks_[i].sums;
-  return all;
+std::vector<Surface> PixelSurfaces::ranked() const {
+  std::vector<Surface> surfaces;
+  for (const Surface* surface : in_order()) surfaces.push_back(*surface);
+  return surfaces;
 }
 
 std::uint64_t PixelSurfaces::hit_weight() const {
   std::uint64_t weight = rest_.weight;
-  for (std::size_t i = 0; i < count_; ++i) weight += ranks_[i].sums.weight;
+  for (std::size_t i = 0; i < count_; ++i) weight += ranks_[i].weight;
   return weight;
 }
 
-std::optional<Surface> PixelSurfaces::reduced(std::uint64_t all) const {
-  if (count_ == 0) return std::nullopt;
+const Surface* PixelSurfaces::reduced(std::uint64_t all) {
+  if (count_ == 0) return nullptr;
   switch (reduction_) {
     case Reduction::majority:
       return majority(all - hit_weight());
     case Reduction::second:
     case Reduction::third:
     case Reduction::fourth: {
-      const std::vector<Surface> surfaces = ranked();
       const auto rank = static_cast<std::size_t>(reduction_);
-      return rank < surfaces.size() ? std::optional(surfaces[rank]) : std::nullopt;
+      return rank < count_ ? in_order()[rank] : nullptr;
     }
     case Reduction::mean:
-      return all_sums().mean(ranks_[0].first);
+      return mean();
     case Reduction::closest:
-      return Surface{closest_.leaf, 1, closest_.t, closest_.point, closest_.normal};
+      return &kept_[0];
     case Reduction::median:
       return median(all);
   }
-  return std::nullopt;
+  return nullptr;
 }
 
-std::optional<Surface> PixelSurfaces::majority(std::uint64_t missed) const {
-  std::size_t best = 0;
-  const auto mean_distance = [&](std::size_t i) {
-    return ranks_[i].sums.distance / static_cast<double>(ranks_[i].sums.weight);
-  };
+const Surface* PixelSurfaces::majority(std::uint64_t missed) const {
+  const Surface* best = &ranks_[0];
   for (std::size_t i = 1; i < count_; ++i) {
-    const std::uint64_t weight = ranks_[i].sums.weight, most_yet = ranks_[best].sums.weight;
-    if (weight > most_yet || (weight == most_yet && mean_distance(i) < mean_distance(best))) best = i;
+    const Surface& other = ranks_[i];
+    if (other.weight > best->weight || (other.weight == best->weight && other.distance() < best->distance()))
+      best = &other;
   }
-  if (ranks_[best].sums.weight < missed) return std::nullopt;
-  return ranks_[best].sums.mean(ranks_[best].first);
+  return best->weight < missed ? nullptr : best;
 }
 
-std::optional<Surface> PixelSurfaces::median(std::uint64_t all) const {
-  std::vector<Weighed> sorted = samples_;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const Weighed& a, const Weighed& b) { return a.sample.t < b.sample.t; });
+const Surface* PixelSurfaces::mean() {
+  all_ = ranks_[0];
+  for (std::size_t i = 1; i < count_; ++i) all_ += ranks_[i];
+  all_ += rest_;
+  return &all_;
+}
+
+const Surface* PixelSurfaces::median(std::uint64_t all) {
+  std::sort(kept_.begin(), kept_.end(),
+            [](const Surface& a, const Surface& b) { return a.first.t < b.first.t; });
   std::uint64_t before = 0;
-  for (const auto& [s, weight] : sorted) {
-    before += weight;
-    if (2 * before >= all) return Surface{s.leaf, weight, s.t, s.point, s.normal};
+  for (const Surface& sample : kept_) {
+    before += sample.weight;
+    if (2 * before >= all) return &sample;
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 }  // namespace rayfarm

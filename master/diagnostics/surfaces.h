@@ -15,14 +15,6 @@
 
 namespace rayfarm {
 
-/// One surface within a pixel: its samples' means.
-struct Surface {
-  std::uint32_t leaf = 0;
-  std::uint64_t weight = 0;  // of the samples that show it
-  double distance = 0;
-  Vec3d point{}, normal{};  // the normal is unit
-};
-
 /// How the samples of a pixel become one value.
 enum class Reduction : std::uint8_t {
   majority,  // the mean of the surface that most samples show; nothing if more show nothing
@@ -36,14 +28,45 @@ enum class Reduction : std::uint8_t {
 
 /// What tells surfaces apart of a hit.
 struct Glimpse {
-  explicit Glimpse(const Hit& hit)
-      : leaf(hit.leaf), leaf_entering(hit.leaf_entering), t(hit.t), point(hit.point), normal(hit.normal) {}
-  Glimpse() = default;
-
   std::uint32_t leaf = 0;
   bool leaf_entering = false;
+  FlatFaces flat_faces = FlatFaces::none;  // of the leaf
   double t = 0;
   Vec3d point{}, normal{};
+};
+
+/// One surface within a pixel: the sums of its samples. What nobody asks of it is not worked out.
+struct Surface {
+  Glimpse first;             // of its samples
+  std::uint64_t weight = 0;  // of them all
+  double distances = 0;
+  Vec3d points{}, normals{};
+
+  /// Its first sample, so many times.
+  void begin(const Hit& sample, FlatFaces flat_faces, std::uint32_t times) {
+    first.leaf = sample.leaf, first.leaf_entering = sample.leaf_entering, first.flat_faces = flat_faces;
+    first.t = sample.t, first.point = sample.point, first.normal = sample.normal;
+    const double factor = times;
+    weight = times;
+    distances = factor * sample.t;
+    points = factor * sample.point;
+    normals = factor * sample.normal;
+  }
+  void add(const Hit& sample, std::uint32_t times) {
+    const double factor = times;
+    weight += times;
+    distances += factor * sample.t;
+    points += factor * sample.point;
+    normals += factor * sample.normal;
+  }
+  /// What is added to one with weight keeps the one's first sample.
+  Surface& operator+=(const Surface& o);
+
+  std::uint32_t leaf() const { return first.leaf; }
+  double distance() const { return distances / static_cast<double>(weight); }  // the mean, as all of these
+  Vec3d point() const { return points * (1 / static_cast<double>(weight)); }
+  /// Unit. Opposite normals cancel out; then one of them stands for all.
+  Vec3d normal() const { return normals == Vec3d{} ? first.normal : normalized(normals); }
 };
 
 /// Whether two points of a face lie on one sheet of it, as seen from about the same place.
@@ -84,12 +107,18 @@ class PixelSurfaces {
 
   PixelSurfaces(const World& world, Reduction reduction) : world_(&world.parts()), reduction_(reduction) {}
 
-  void clear();
+  void clear() {
+    if (count_ == most) rest_ = {}, set_off_ = {};
+    count_ = last_ = 0;
+    kept_.clear();
+  }
   /// The weight is a whole number; all of a pixel's samples have 1 unless the sampler is adaptive.
   void add(const Hit& sample, std::uint32_t weight) {
     if (reduction_ >= Reduction::closest) keep(sample, weight);
-    if (last_ < count_ && plainly_shows(ranks_[last_], sample))
-      ranks_[last_].sums.add(sample, weight);
+    if (count_ == 0)
+      begin(ranks_[count_++], sample, weight);
+    else if (plainly_shows(ranks_[last_].first, sample))
+      ranks_[last_].add(sample, weight);
     else
       find_and_add(sample, weight);
   }
@@ -98,64 +127,40 @@ class PixelSurfaces {
   std::vector<Surface> ranked() const;
   std::uint64_t rest() const { return rest_.weight; }
   /// None when the pixel shows nothing. `all`: the weight of all its samples, those that hit nothing too.
-  std::optional<Surface> reduced(std::uint64_t all) const;
+  /// Good until more is added or asked for.
+  const Surface* reduced(std::uint64_t all);
 
  private:
-  struct Sums {
-    std::uint64_t weight = 0;
-    double distance = 0;
-    Vec3d point{}, normal{};
-
-    void add(const Hit& sample, std::uint32_t times) {
-      const double factor = times;
-      weight += times;
-      distance += factor * sample.t;
-      point += factor * sample.point;
-      normal += factor * sample.normal;
-    }
-    Sums& operator+=(const Sums& o);
-    Surface mean(const Glimpse& any) const;
-  };
-  struct Rank {
-    Glimpse first;
-    FlatFaces flat_faces = FlatFaces::none;  // of the leaf
-    bool is_cap = false;                     // of a cylinder or cone
-    Sums sums;
-    std::uint64_t set_off = 0;  // of its weight, against that of others
-
-    std::uint64_t lead() const { return sums.weight - set_off; }
-  };
-
-  static bool is_of_leaf(const Rank& rank, const Hit& sample) {
-    return sample.leaf == rank.first.leaf && sample.leaf_entering == rank.first.leaf_entering;
+  static bool is_of_leaf(const Glimpse& first, const Hit& sample) {
+    return sample.leaf == first.leaf && sample.leaf_entering == first.leaf_entering;
   }
-  /// Whether the sample lies on the rank's face, and on the same sheet of it, as far as that is seen at a glance.
-  static bool plainly_shows(const Rank& rank, const Hit& sample) {
-    if (!is_of_leaf(rank, sample)) return false;
-    return rank.flat_faces == FlatFaces::none ? on_one_sheet(rank.first, sample)
-                                              : sample.normal == rank.first.normal;
+  /// Whether the sample lies on the same face, and on the same sheet of it, as far as that is seen at a glance.
+  static bool plainly_shows(const Glimpse& first, const Hit& sample) {
+    if (!is_of_leaf(first, sample)) return false;
+    return first.flat_faces == FlatFaces::none ? on_one_sheet(first, sample) : sample.normal == first.normal;
   }
-  bool shows(const Rank& rank, const Hit& sample) const;
-  bool is_cap(const Hit& sample) const;  // of a leaf that has caps
+  void begin(Surface& surface, const Hit& sample, std::uint32_t weight) const {
+    const Solid& solid = world_->leaves[sample.leaf].solid;
+    surface.begin(sample, std::visit([](const auto& s) { return s.flat_faces; }, solid), weight);
+  }
+  bool shows(const Glimpse& first, const Hit& sample) const;
+  std::uint64_t lead(std::size_t rank) const { return ranks_[rank].weight - set_off_[rank]; }
   void keep(const Hit& sample, std::uint32_t weight);
   void find_and_add(const Hit& sample, std::uint32_t weight);
-  void add_new(const Hit& sample, std::uint32_t weight);
+  void displace(const Hit& sample, std::uint32_t weight);
   std::uint64_t hit_weight() const;
-  Sums all_sums() const;
-  std::optional<Surface> majority(std::uint64_t missed) const;
-  std::optional<Surface> median(std::uint64_t all) const;
+  std::vector<const Surface*> in_order() const;
+  const Surface* majority(std::uint64_t missed) const;
+  const Surface* mean();
+  const Surface* median(std::uint64_t all);
 
   const World::Parts* world_;
   Reduction reduction_;
-  std::array<Rank, most> ranks_;
   std::size_t count_ = 0, last_ = 0;  // last_: of the sample before
-  Sums rest_;
-  Hit closest_{.t = infinity};
-  struct Weighed {
-    Hit sample;
-    std::uint32_t weight;
-  };
-  std::vector<Weighed> samples_;  // for the median alone
+  std::vector<Surface> kept_;         // one sample each: all of them for the median, one for the closest
+  alignas(64) std::array<Surface, most> ranks_;  // of two lines of a cache each
+  std::array<std::uint64_t, most> set_off_{};    // of a rank's weight, against that of others
+  Surface rest_, all_;                           // all_: for the mean
 };
 
 }  // namespace rayfarm

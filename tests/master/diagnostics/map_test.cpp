@@ -113,8 +113,8 @@ TEST(Map, ANormalAtAnEdgeIsThatOfTheSurfaceThatMostSamplesShow) {
       const std::vector<Surface> seen = surfaces(few);
       if (seen.size() < 2) continue;
       for (const Surface& truth : surfaces(many)) {
-        if (truth.leaf != seen[0].leaf) continue;
-        const double cosine = std::min(1.0, dot(truth.normal, seen[0].normal));
+        if (truth.leaf() != seen[0].leaf()) continue;
+        const double cosine = std::min(1.0, dot(truth.normal(), seen[0].normal()));
         error_sum += std::acos(cosine) * 180 / 3.14159265358979;
         ++edges;
         break;

@@ -51,7 +51,7 @@ TEST(Surfaces, EachSampleBelongsToOneAndTheRanksDescend) {
       std::uint64_t last = s.width;
       for (const Surface& surface : surfaces.ranked()) {
         EXPECT_LE(surface.weight, last);
-        EXPECT_NEAR(length(surface.normal), 1, 1e-12);
+        EXPECT_NEAR(length(surface.normal()), 1, 1e-12);
         last = surface.weight;
       }
       EXPECT_EQ(sum_of(surfaces), hits);
@@ -75,7 +75,7 @@ TEST(Surfaces, WhatOverAFifthOfTheSamplesShowIsAmongTheRanks) {
     EXPECT_LE(ranked.size(), PixelSurfaces::most);
     for (std::uint32_t heavy = 0; heavy < 3; ++heavy)
       EXPECT_TRUE(std::any_of(ranked.begin(), ranked.end(),
-                              [&](const Surface& surface) { return surface.leaf == heavy; }));
+                              [&](const Surface& surface) { return surface.leaf() == heavy; }));
   }
 }
 
@@ -89,10 +89,10 @@ TEST(Surfaces, WeightsCountAsSoManySamples) {
       weighed.add(sample, 1 + i);
       for (std::uint32_t n = 0; n < 1 + i; ++n) repeated.add(sample, 1);
     }
-    const std::optional<Surface> a = weighed.reduced(80), b = repeated.reduced(80);
+    const Surface *const a = weighed.reduced(80), *const b = repeated.reduced(80);
     ASSERT_TRUE(a && b);
-    EXPECT_EQ(a->leaf, b->leaf);
-    EXPECT_NEAR(a->distance, b->distance, 1e-12);
+    EXPECT_EQ(a->leaf(), b->leaf());
+    EXPECT_NEAR(a->distance(), b->distance(), 1e-12);
   }
 }
 
@@ -107,7 +107,7 @@ TEST(Surfaces, AFaceThatComesIntoViewTwiceIsTwoSurfaces) {
   const std::vector<Surface> ranked = surfaces.ranked();
   ASSERT_EQ(ranked.size(), 2u);
   EXPECT_EQ(ranked[0].weight, 2u);
-  EXPECT_EQ(ranked[1].distance, 6);
+  EXPECT_EQ(ranked[1].distance(), 6);
 }
 
 TEST(Surfaces, OfEquallyManyTheCloserOneIsFirst) {
@@ -115,9 +115,9 @@ TEST(Surfaces, OfEquallyManyTheCloserOneIsFirst) {
   PixelSurfaces surfaces(world, Reduction::majority);
   surfaces.add(sample_of(1), 1);
   surfaces.add(sample_of(0), 1);
-  EXPECT_EQ(surfaces.ranked()[0].leaf, 0u);
+  EXPECT_EQ(surfaces.ranked()[0].leaf(), 0u);
   ASSERT_TRUE(surfaces.reduced(3));  // one that hits nothing does not outweigh it
-  EXPECT_EQ(surfaces.reduced(3)->leaf, 0u);
+  EXPECT_EQ(surfaces.reduced(3)->leaf(), 0u);
   EXPECT_FALSE(surfaces.reduced(4));  // two do
 }
 
@@ -138,7 +138,7 @@ TEST(Surfaces, TheMeanOfABumpySurfaceIsItsMean) {
   for (const Surface& surface : surfaces.ranked()) seen += static_cast<double>(surface.weight);
   EXPECT_EQ(surfaces.ranked().size(), 1u);  // a relief is one surface
   EXPECT_EQ(seen, count);
-  EXPECT_NEAR(surfaces.reduced(count)->distance, sum / count, 1e-9);
+  EXPECT_NEAR(surfaces.reduced(count)->distance(), sum / count, 1e-9);
   EXPECT_NEAR(squares / count, height * height / 2, 0.05 * height * height / 2);  // it was bumpy
 }
 
