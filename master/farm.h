@@ -13,9 +13,9 @@
 // first; of its frames the first that has work waiting, so that the last tiles of one and the first of the next
 // are rendered side by side; of its tiles those given back, then the one nearest the centre. A worker holds a
 // lease for each thread until it has delivered something, then two more, and beyond that as many as keep it
-// busy for 250 ms by its learned speed. It is sent the scene of the coming frame, too. When nothing waits for it, a
-// thread without work does a second time what is expected to end last, if it would be sooner (tail.h): the first result
-// counts, the other lease is revoked.
+// busy for 250 ms by its learned speed. It is sent the scene of the coming frame, too. Near the
+// end of a job, what is expected to end after all that still waits is done a second time by a worker that would be sooner
+// (tail.h): the first result counts, the other lease is revoked.
 //
 // What is to be verified (verification.h) is on trial first: its tile counts as leased until enough others, or the
 // master's own threads, say the same pixels; only then it is committed. Who was wrong twice is banned, and what it

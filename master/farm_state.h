@@ -92,9 +92,14 @@ struct Farm::State {
 
   // The tail.
   struct Candidates;
+  struct Helper;
+  /// So little of it is unfinished that it can be seen who will be late.
+  bool is_ending(const Job& job) const;
+  std::vector<Helper> helpers();
+  double seconds_of_queue(const Job& job, std::uint64_t pixels_leased) const;
   /// Gives threads that have nothing to do what is worth doing a second time; looks for it every few milliseconds only.
   void double_stragglers(FarmTime now);
-  void add_candidates(const Worker& holder, FarmTime now, std::map<JobId, Candidates>& by_job);
+  double add_candidates(const Worker& holder, FarmTime now, std::map<JobId, Candidates>& by_job);
   void give_copy(Worker& holder, LeaseId original, Worker& worker, FarmTime now);
   /// Somebody else's result was taken.
   void end_twin(const Lease::Twin& twin, FarmTime now);

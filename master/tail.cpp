@@ -41,6 +41,13 @@ std::vector<double> times_left(std::span<const HeldWork> held, std::uint32_t thr
   return left;
 }
 
+double time_until_free(std::vector<double> times_left, std::uint32_t threads) {
+  if (times_left.size() < threads) return 0;
+  const auto first_free = times_left.begin() + (threads - 1);
+  std::ranges::nth_element(times_left, first_free, std::greater{});
+  return *first_free;
+}
+
 std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<const IdleWorker> idle) {
   const std::vector<std::size_t> fastest = greatest_first(idle, &IdleWorker::speed);
   std::vector<std::uint32_t> threads;
@@ -53,11 +60,12 @@ std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<con
     for (std::size_t i = first; i < fastest.size(); ++i) {
       const std::size_t w = fastest[i];
       if (threads[w] == 0 || idle[w].id == stragglers[s].holder) continue;
-      if (expected_seconds(stragglers[s].cost, idle[w].speed) < stragglers[s].time_left) {
-        copies.push_back({s, w});
-        --threads[w];
-      }
-      break;  // the others are no faster
+      const double seconds = expected_seconds(stragglers[s].cost, idle[w].speed);
+      if (seconds >= stragglers[s].time_left) break;  // the others are no faster
+      if (idle[w].busy + seconds >= stragglers[s].time_left) continue;
+      copies.push_back({s, w});
+      --threads[w];
+      break;
     }
   }
   return copies;

@@ -1,5 +1,5 @@
-// The tail: when no work waits any more, what others are expected to be slowest with is done a second time by threads
-// that would idle; whose result comes first is taken.
+// The tail: what is expected to end after all that still waits is done a second time, by threads that are sooner; whose
+// result comes first is taken.
 //
 // Source: J. Dean, S. Ghemawat, MapReduce: Simplified Data Processing on Large Clusters, OSDI 2004, section 3.6 (backup
 // tasks); M. Zaharia et al., Improving MapReduce Performance in Heterogeneous Environments, OSDI 2008 (the one that is
@@ -35,13 +35,16 @@ struct Straggler {
 struct IdleWorker {
   std::uint64_t id = 0;
   double speed = 0;           // rays a second of one thread; 0: unknown
-  std::uint32_t threads = 0;  // that have nothing to do
+  std::uint32_t threads = 0;  // that may take one each
+  double busy = 0;            // seconds until they can begin
 };
 /// Who does what again, by their places in the lists.
 struct Copy {
   std::size_t straggler = 0, worker = 0;
   bool operator==(const Copy&) const = default;
 };
+/// When the first thread has nothing more to do, in seconds: of a worker that holds work which takes so long to end.
+double time_until_free(std::vector<double> times_left, std::uint32_t threads);
 /// What ends last first, by the fastest that has a thread free and would be sooner; never by its holder. O(n log n).
 std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<const IdleWorker> idle);
 

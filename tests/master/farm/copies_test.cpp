@@ -111,7 +111,22 @@ TEST(Copies, PausingEndsBothAndResumingGivesOneTile) {
   EXPECT_EQ(tail.fast.held().size() + tail.slow.held().size(), 1u);
 }
 
-TEST(Copies, NothingIsDoubledWhileSomethingWaits) {
+TEST(Copies, WhatWouldEndAfterAllTheRestIsDoubledBeforeThatIsDone) {
+  Farm farm;
+  FakeWorker fast(farm, remote("fast")), slow(farm, remote("slow"));
+  const JobId job = farm.submit(job_of({30 * 64, 64}), 0s);
+  slow.finish_one(1s, 1);  // looks as fast as the other, and is not
+  FarmTime now = 1s;
+  while (fast.held().back().tile != slow.held().front().tile) {
+    fast.finish_one(now += 1s, 1);
+    farm.tick(now);
+    ASSERT_LT(now, 30s);
+  }
+  EXPECT_LT(now, 25s) << "when some 29 tiles were left to the fast one";
+  EXPECT_GT(farm.job(job, now)->tiles_doubled, 0u);
+}
+
+TEST(Copies, NothingIsDoubledWhileMuchWaits) {
   Farm farm;
   FakeWorker fast(farm, remote("fast")), slow(farm, remote("slow"));
   const JobId job = farm.submit(job_of({100 * 64, 64}), 0s);

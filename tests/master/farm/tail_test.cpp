@@ -56,6 +56,21 @@ TEST(Tail, ASlowTileDoesNotKeepTheSmallerOnesFromBeingDoubled) {
   EXPECT_EQ(copies_of(stragglers, std::vector<IdleWorker>{{2, 50, 1}}), (std::vector<Copy>{{1, 0}}));
 }
 
+TEST(Tail, AWorkerIsFreeWhenTheFirstOfItsThreadsHasNothingMoreToDo) {
+  EXPECT_EQ(time_until_free({}, 2), 0);
+  EXPECT_EQ(time_until_free({3}, 2), 0);
+  EXPECT_EQ(time_until_free({3, 1}, 2), 1);
+  EXPECT_EQ(time_until_free({3, 1, 11, 13, 12}, 2), 12);
+}
+
+TEST(Tail, AFastWorkerThatIsBusyTooLongLeavesItToASlowerOne) {
+  const std::vector<Straggler> stragglers{{1, 5, 100}};
+  EXPECT_EQ(copies_of(stragglers, std::vector<IdleWorker>{{2, 100, 1, 4.5}, {3, 50, 1, 0}}),
+            (std::vector<Copy>{{0, 1}}));
+  EXPECT_EQ(copies_of(stragglers, std::vector<IdleWorker>{{2, 100, 1, 3.5}, {3, 50, 1, 0}}),
+            (std::vector<Copy>{{0, 0}}));
+}
+
 TEST(Tail, WhateverTheNumbersEachWorkIsDoubledOnceAtMostByAnotherThatIsSoonerAndHasAThread) {
   std::mt19937 random(7);
   const auto chance = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
@@ -65,16 +80,17 @@ TEST(Tail, WhateverTheNumbersEachWorkIsDoubledOnceAtMostByAnotherThatIsSoonerAnd
     for (int i = chance(12); i > 0; --i)
       stragglers.push_back({static_cast<std::uint64_t>(chance(5)), 0.1 * chance(100), 10.0 * chance(20)});
     for (int i = 0; i < chance(6); ++i)
-      idle.push_back(
-          {static_cast<std::uint64_t>(i), 10.0 * chance(20), static_cast<std::uint32_t>(chance(3))});
+      idle.push_back({static_cast<std::uint64_t>(i), 10.0 * chance(20), static_cast<std::uint32_t>(chance(3)),
+                      0.1 * chance(30)});
 
     const std::vector<Copy> copies = copies_of(stragglers, idle);
     std::set<std::size_t> doubled;
     for (const Copy& copy : copies) {
       EXPECT_TRUE(doubled.insert(copy.straggler).second);
       EXPECT_NE(stragglers[copy.straggler].holder, idle[copy.worker].id);
-      EXPECT_LT(expected_seconds(stragglers[copy.straggler].cost, idle[copy.worker].speed),
-                stragglers[copy.straggler].time_left);
+      EXPECT_LT(
+          idle[copy.worker].busy + expected_seconds(stragglers[copy.straggler].cost, idle[copy.worker].speed),
+          stragglers[copy.straggler].time_left);
     }
     for (std::size_t w = 0; w < idle.size(); ++w)
       EXPECT_LE(std::ranges::count(copies, w, &Copy::worker), idle[w].threads);
