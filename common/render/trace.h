@@ -21,8 +21,11 @@ namespace rayfarm {
 /// without one: it is asked for once a primary ray.
 class PrimaryWatch {
  public:
-  /// The ray has ended there; nowhere when it hits nothing or the camera has none.
+  explicit PrimaryWatch(bool hears_misses) : hears_misses(hears_misses) {}
+  /// A primary ray has ended there. If misses are heard: nowhere when it hits nothing or the camera has none.
   virtual void ended(const std::optional<Hit>& hit) = 0;
+
+  const bool hears_misses;
 
  protected:
   ~PrimaryWatch() = default;
@@ -61,7 +64,7 @@ class Tracer {
     const std::optional<Ray> ray = state_.camera.ray(x, y);
     if (!ray) {
       observer.no_ray();
-      if (state_.watch) state_.watch->ended(std::nullopt);
+      if (state_.watch && state_.watch->hears_misses) state_.watch->ended(std::nullopt);
       return {};
     }
     place_lights(light_point);
@@ -132,7 +135,8 @@ class Tracer {
     const RayQuery query(ray);
     const std::optional<Hit> hit = nearest_hit(query);
     observer.traced(kind, ray, depth, importance, hit);
-    if (kind == RayKind::primary && state_.watch) state_.watch->ended(hit);
+    if (kind == RayKind::primary && state_.watch && (hit || state_.watch->hears_misses))
+      state_.watch->ended(hit);
     Vec3d color = hit ? radiance_at(*hit, ray, depth, importance) : radiance_of_nothing(ray);
     for (std::uint32_t i = 0; i < state_.world.glows.size(); ++i)
       if (const std::optional<Vec3d> glow = glow_along(state_.world.glows[i], query, hit)) {

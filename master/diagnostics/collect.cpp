@@ -3,14 +3,10 @@
 namespace rayfarm {
 
 void PixelWatch::ended(const std::optional<Hit>& hit) {
-  if (is_adaptive_)
-    keep(hit);
+  if (hears_misses)
+    ends_.push_back(hit);
   else if (hit)
-    met(*hit);
+    surfaces_.add(*hit, 1);
 }
-
-void PixelWatch::met(const Hit& hit) { surfaces_.add(hit, 1); }
-
-void PixelWatch::keep(const std::optional<Hit>& hit) { ends_.push_back(hit); }
 
 }  // namespace rayfarm

@@ -12,9 +12,9 @@ namespace rayfarm {
 class PixelWatch : public PrimaryWatch {
  public:
   PixelWatch(const World& world, const RenderSettings& settings, Reduction reduction)
-      : surfaces_(world, reduction),
-        all_weight_(pixel_weight(settings)),
-        is_adaptive_(is_adaptive(settings.sampler)) {}
+      : PrimaryWatch(is_adaptive(settings.sampler)),
+        surfaces_(world, reduction),
+        all_weight_(pixel_weight(settings)) {}
 
   /// Of the pixels before it, so much has been counted.
   void begin_pixel(const RayCounters& counters) {
@@ -36,16 +36,11 @@ class PixelWatch : public PrimaryWatch {
   }
 
  private:
-  // Out of line: most rays end nowhere or where the one before did.
-  [[gnu::noinline]] void met(const Hit& hit);
-  /// Samples of an adaptive sampler have their weight only when all of the pixel's are traced.
-  [[gnu::noinline]] void keep(const std::optional<Hit>& hit);
-
   PixelSurfaces surfaces_;
   std::uint64_t all_weight_;
-  bool is_adaptive_;
   RayCounters before_;
-  std::vector<std::optional<Hit>> ends_;  // of an adaptive sampler, by number
+  // Samples of an adaptive sampler have their weight only when all of the pixel's are traced: by number.
+  std::vector<std::optional<Hit>> ends_;
 };
 
 /// As pixel_sum(), of a tracer whose primary rays the watch watches; begin_pixel() and facts() are the caller's.
