@@ -34,7 +34,8 @@ bool Farm::State::give_one(Worker& worker, FarmTime now) {
     if (is_next && has_room_for(worker, tried.id)) return give_trial(worker, *trial, now), true;
     if (is_next) return false;
   }
-  if (job == nullptr || !has_room_for(worker, job->id)) return false;
+  if (job == nullptr) return give_asked_trial(worker, now);
+  if (!has_room_for(worker, job->id)) return false;
   const std::uint32_t place = *job->open.begin();
   JobFrame& frame = job->frames[place];
   const bool can_start = frame.canvas ? read_film(*job, frame) : start(*job, frame, now);
@@ -67,7 +68,7 @@ void Farm::State::fill(Worker& worker, FarmTime now) {
 
 void Farm::State::fill_all(FarmTime now) {
   // In rounds of one lease each, so that the few tiles of a small picture are spread over all workers.
-  bool anybody_took = !queue.empty() || !open_trials.empty();
+  bool anybody_took = !queue.empty() || !trials.empty();
   while (anybody_took) {
     anybody_took = false;
     for (auto& [id, worker] : workers) anybody_took |= give_one(worker, now);

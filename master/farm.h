@@ -18,8 +18,9 @@
 // (tail.h): the first result counts, the other lease is revoked.
 //
 // What is to be verified (verification.h) is on trial first: its tile counts as leased until enough others, or the
-// master's own threads, say the same pixels; only then it is committed. Who was wrong twice is banned, and what it
-// delivered for unfinished jobs is rendered again. After a restart what was on trial waits.
+// master's own threads, say the same pixels; only then it is committed. Who has nothing else to do is asked although
+// enough are asked already: one that never answers stops no job. What a worker that was wrong delivered for unfinished
+// jobs is rendered again, and who was wrong twice is banned. After a restart what was on trial waits.
 //
 // Memory: a frame costs its scene, which frames of the same hash share; from its first assignment also 12 bytes
 // a pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 300 bytes a tile. A frame that is done,

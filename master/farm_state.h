@@ -106,8 +106,14 @@ struct Farm::State {
 
   // Trials.
   std::uint32_t opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const;
+  bool may_judge_now(const Worker& worker, const TrialId& id) const;
+  /// That wants an opinion.
   std::optional<TrialId> next_trial_for(const Worker& worker) const;
+  /// Others are asked already, who may never answer.
+  std::optional<TrialId> asked_trial_for(const Worker& worker) const;
   void give_trial(Worker& worker, const TrialId& id, FarmTime now);
+  /// To a worker without anything else to do. False: it has something, or there is none for it.
+  bool give_asked_trial(Worker& worker, FarmTime now);
   void update_trial(const TrialId& id);
   /// The worker will not say what it was asked for.
   void withdraw(const Worker& worker, const Lease& lease);
@@ -117,6 +123,8 @@ struct Farm::State {
   /// Nobody is asked any more.
   void end_trial(const TrialId& id, FarmTime now);
   void drop_trials(FrameId frame, FarmTime now);
+  /// It was wrong once more.
+  void disbelieve(const std::string& name, FarmTime now);
   /// It was wrong too often.
   void expel(const std::string& name, FarmTime now);
   /// What it delivered for unfinished jobs waits again; how many tiles.

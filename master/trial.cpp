@@ -11,6 +11,12 @@ std::uint32_t supporters(const Trial& trial, const Opinion& of) {
       std::ranges::count_if(trial.opinions, [&](const Opinion& other) { return agree(of, other); }));
 }
 
+std::size_t most_in_agreement(const Trial& trial) {
+  std::uint32_t most = 0;
+  for (const Opinion& opinion : trial.opinions) most = std::max(most, supporters(trial, opinion));
+  return most;
+}
+
 }  // namespace
 
 bool agree(const Opinion& a, const Opinion& b) {
@@ -38,9 +44,11 @@ std::optional<std::size_t> verdict(const Trial& trial) {
 }
 
 bool wants_opinions(const Trial& trial) {
-  std::uint32_t most = 0;
-  for (const Opinion& opinion : trial.opinions) most = std::max(most, supporters(trial, opinion));
-  return most + trial.asked.size() < trial.wanted;
+  return most_in_agreement(trial) + trial.asked.size() < trial.wanted;
+}
+
+bool bears_another_opinion(const Trial& trial) {
+  return most_in_agreement(trial) + trial.asked.size() <= trial.wanted;
 }
 
 }  // namespace rayfarm

@@ -37,5 +37,7 @@ std::optional<std::size_t> verdict(const Trial& trial);
 bool agree(const Opinion& a, const Opinion& b);
 /// Whether more are to be asked than are asked already.
 bool wants_opinions(const Trial& trial);
+/// Whether no more are asked than are wanted: one beyond that may save the others' waiting for who never answers.
+bool bears_another_opinion(const Trial& trial);
 
 }  // namespace rayfarm

@@ -40,12 +40,22 @@ std::uint32_t Farm::State::opinions_wanted_on(const Worker& worker, LeaseId id, 
                          mixed(limits.secret ^ mixed(static_cast<std::uint64_t>(id))));
 }
 
+bool Farm::State::may_judge_now(const Worker& worker, const TrialId& id) const {
+  return jobs.at(id.frame.job).state == JobState::running && may_judge(worker, id, trials.at(id));
+}
+
 std::optional<TrialId> Farm::State::next_trial_for(const Worker& worker) const {
-  const auto fits = [&](const TrialId& id) {
-    return jobs.at(id.frame.job).state == JobState::running && may_judge(worker, id, trials.at(id));
-  };
-  const auto found = std::ranges::find_if(open_trials, fits);
+  const auto found =
+      std::ranges::find_if(open_trials, [&](const TrialId& id) { return may_judge_now(worker, id); });
   return found == open_trials.end() ? std::nullopt : std::optional(*found);
+}
+
+std::optional<TrialId> Farm::State::asked_trial_for(const Worker& worker) const {
+  const bool is_final = worker.info.kind == WorkerKind::local;
+  const auto found = std::ranges::find_if(trials, [&](const auto& t) {
+    return (is_final || bears_another_opinion(t.second)) && may_judge_now(worker, t.first);
+  });
+  return found == trials.end() ? std::nullopt : std::optional(found->first);
 }
 
 void Farm::State::give_trial(Worker& worker, const TrialId& id, FarmTime now) {
@@ -57,6 +67,13 @@ void Farm::State::give_trial(Worker& worker, const TrialId& id, FarmTime now) {
   Lease lease{job.id, id.frame.frame, work, pixels_in(work, job.spec.settings) * job.spec.settings.spp, now};
   lease.is_check = true;
   assign(worker, LeaseId{++last_lease}, std::move(lease));
+}
+
+bool Farm::State::give_asked_trial(Worker& worker, FarmTime now) {
+  if (worker.leases.size() >= worker.info.threads) return false;
+  const std::optional<TrialId> trial = asked_trial_for(worker);
+  if (trial) give_trial(worker, *trial, now);
+  return trial.has_value();
 }
 
 void Farm::State::update_trial(const TrialId& id) {
@@ -126,21 +143,27 @@ void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime no
                title_of(job, frame) + ": " + names[static_cast<std::size_t>(opinions[right].by)] +
                " and others say otherwise",
            name);
-      if (known.mismatches >= most_mismatches) liars.push_back(name);
+      liars.push_back(name);
     }
     record(WorkerJudged{name, known});
   }
+  for (const std::string& liar : liars) disbelieve(liar, now);  // first: this commit may be the job's last
   Opinion& believed = opinions[right];
   accept(job, frame, {id.tile, id.passes}, std::move(believed.images), believed.by, believed.taken, now);
-  for (const std::string& liar : liars) expel(liar, now);
+}
+
+void Farm::State::disbelieve(const std::string& name, FarmTime now) {
+  const std::size_t tiles = lose_all_of(name, now);
+  if (tiles > 0)
+    tell(count_of_tiles(tiles) + " that worker " + name +
+             " delivered for unfinished jobs are rendered again, as it was wrong elsewhere",
+         name);
+  if (trust.at(name).mismatches >= most_mismatches) expel(name, now);
 }
 
 void Farm::State::expel(const std::string& name, FarmTime now) {
   ban(name, now);
-  const std::size_t tiles = lose_all_of(name, now);
-  warn("worker " + name + " was wrong " + std::to_string(most_mismatches) + " times and is banned; " +
-           count_of_tiles(tiles) + " that it delivered for unfinished jobs are rendered again",
-       name);
+  warn("worker " + name + " was wrong " + std::to_string(most_mismatches) + " times and is banned", name);
   std::vector<TrialId> its_trials;
   for (const auto& [id, trial] : trials) its_trials.push_back(id);
   for (const TrialId& id : its_trials) {
@@ -167,6 +190,7 @@ std::size_t Farm::State::lose_all_of(const std::string& name, FarmTime now) {
       tiles += lost.lost.size();
       lose_passes(job, frame, std::move(lost));
       job.pace.restart(now, job.pixels_done);
+      touch(job);
       update_queue(job);
     }
   }

@@ -1,0 +1,68 @@
+// Work on trial: that it comes to an end, and what a lie that was seen brings with it.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "tests/master/farm/liar.h"
+
+namespace rayfarm {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Trials, OnceALieIsSeenNothingStaysThatItsWorkerDeliveredUnchecked) {
+  int seen = 0, seen_at_the_end = 0;
+  for (unsigned seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    Farm farm({.secret = seed});
+    FakeWorker liar(farm, remote("liar"));
+    const JobId job = farm.submit(verified(Audit{0.1}), 0s);
+    FakeWorker master(farm, masters_own());
+    const bool learns = seed % 2 == 0;
+    FarmTime now = 0s;
+    while (farm.job(job, now)->state != JobState::done) {
+      now += 10ms;
+      const Trust before = farm.trust_in("liar");
+      const JobView was = *farm.job(job, now);
+      const bool lies = learns ? before.good_in_a_row >= 10 && before.mismatches == 0
+                               : before.good_in_a_row >= 10 || before.mismatches > 0;
+      if (random() % 2)
+        deliver_one(farm, master, now);
+      else
+        deliver_one(farm, liar, now, lies ? one_percent : nothing);
+      const bool is_last = was.pixels_done + tile_side * tile_side >= was.pixels_total;
+      seen_at_the_end += is_last && farm.trust_in("liar").mismatches > before.mismatches;
+    }
+    if (farm.trust_in("liar").mismatches == 0) continue;
+    ++seen;
+    expect_right_picture(farm, job, now);
+  }
+  EXPECT_GT(seen, 50);
+  EXPECT_GT(seen_at_the_end, 0) << "else the law was not tried where it is hard";
+}
+
+TEST(Trials, OneWorkerThatNeverAnswersStopsNoJob) {
+  const std::vector<Verification> all{Audit{1}, Audit{0.1}, Quorum{2}, Quorum{3}};
+  for (const Verification& verification : all)
+    for (const std::size_t silent : {0u, 1u, 2u, 3u})
+      for (const bool has_own_threads : {false, true}) {
+        SCOPED_TRACE(text_of(verification) + ", silent " + std::to_string(silent));
+        Farm farm;
+        std::vector<FakeWorker> workers;
+        for (const char* name : {"a", "b", "c", "d"}) workers.emplace_back(farm, remote(name));
+        if (has_own_threads) workers.emplace_back(farm, masters_own());
+        const JobId job = farm.submit(verified(verification), 0s);
+        FarmTime now = 0s;
+        for (int i = 0; i < 1000 && farm.job(job, now)->state != JobState::done; ++i) {
+          farm.tick(now += 100ms);
+          for (std::size_t w = 0; w < workers.size(); ++w)
+            if (w != silent) deliver_one(farm, workers[w], now);
+        }
+        expect_right_picture(farm, job, now);
+      }
+}
+
+}  // namespace
+}  // namespace rayfarm
