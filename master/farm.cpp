@@ -17,11 +17,6 @@ JobId same_job(const Job& job, const JobSpec& wanted) {
   return job.id;
 }
 
-std::string words_for_banned(std::string_view name) {
-  return "worker " + std::string(name) + " is banned from this farm; rayfarm unban " + std::string(name) +
-         " lets it in again";
-}
-
 }  // namespace
 
 Farm::Farm(FarmLimits limits) : state_(std::make_unique<State>()) { state_->limits = limits; }
@@ -33,6 +28,7 @@ Farm::~Farm() = default;
 
 WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   const WorkerId id{++state_->last_worker};
+  std::string identity = identity_of(info.name, info.certificate);
   info.name = state_->unique_name(info.name);
   state_->exonerate(info.process);
   std::string joined = "worker " + info.name + " joined";
@@ -45,6 +41,8 @@ WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   worker.name = state_->id_of_name(info.name);
   worker.is_drained = state_->drained_names.contains(info.name);
   worker.info = std::move(info);
+  worker.identity = std::move(identity);
+  state_->meet(worker);
   worker.send = std::move(send);
   worker.joined = now;
   state_->tell(worker.is_drained ? joined + "; it is drained" : joined, worker.info.name);
@@ -97,47 +95,6 @@ bool Farm::undrain(std::string_view name, FarmTime now) {
   worker->is_drained = false;
   state_->fill(*worker, now);
   return true;
-}
-
-bool Farm::ban(std::string_view name, FarmTime now) {
-  Worker* worker = state_->worker_named(name);
-  const auto was_here = state_->name_ids.find(std::string(name));
-  if (was_here == state_->name_ids.end() || (worker && worker->info.kind == WorkerKind::local)) return false;
-  state_->ban(was_here->first, now);
-  state_->fill_all(now);
-  return true;
-}
-
-void Farm::State::ban(const std::string& name, FarmTime now) {
-  const bool is_new = banned_names.insert(name).second;
-  if (is_new) {
-    tell("worker " + name + " banned", name);
-    record(WorkerBanned{name, true});
-  }
-  Worker* worker = worker_named(name);
-  if (!worker) return;
-  end_leases(*worker, now);
-  worker->is_stopping = true;
-  worker->send(Refused{words_for_banned(name)});
-}
-
-bool Farm::unban(std::string_view name, FarmTime) {
-  const auto banned = state_->banned_names.find(name);
-  if (banned == state_->banned_names.end()) return state_->worker_named(name) != nullptr;
-  state_->tell("worker " + *banned + " no longer banned", *banned);
-  state_->record(WorkerBanned{*banned, false});
-  if (const auto judged = state_->trust.find(name); judged != state_->trust.end()) {
-    judged->second = {};
-    state_->record(WorkerJudged{*banned, {}});
-  }
-  state_->banned_names.erase(banned);
-  return true;
-}
-
-std::optional<std::string> Farm::objection_to(const std::string& wanted_name) const {
-  const std::string name = state_->unique_name(wanted_name);
-  if (!state_->banned_names.contains(name)) return std::nullopt;
-  return words_for_banned(name);
 }
 
 namespace {

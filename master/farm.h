@@ -58,6 +58,7 @@ struct WorkerInfo {
   std::uint32_t threads = 1;
   WorkerKind kind = WorkerKind::remote;
   std::uint64_t process = 0;  // the same when it comes back without having ended; 0: not known
+  std::string certificate{};  // its id; empty: it showed none
 };
 
 enum class JobState : std::uint8_t { waiting, running, paused, done, cancelled, failed };
@@ -232,12 +233,14 @@ class Farm {
   // no such worker; undrain also knows drained workers that are away.
   bool drain(std::string_view name, FarmTime now);
   bool undrain(std::string_view name, FarmTime now);
-  // A banned worker is refused, its connection ends and what it holds is given to others. A name that never
-  // was here is none; the master's own threads are not banned.
+  // A banned worker is refused, its connections end and what it holds is given to others. It is known by its certificate,
+  // whatever name it takes; without one by the name that it asks for. A name that never was here is none; the master's own
+  // threads are not banned.
   bool ban(std::string_view name, FarmTime now);
   bool unban(std::string_view name, FarmTime now);
   /// Why a worker that wants this name must not be added; nothing when it may.
-  std::optional<std::string> objection_to(const std::string& wanted_name) const;
+  std::optional<std::string> objection_to(const std::string& wanted_name,
+                                          const std::string& certificate = {}) const;
 
   std::vector<JobView> jobs(FarmTime now) const;  // in order of submission
   std::optional<JobView> job(JobId id, FarmTime now) const;

@@ -82,14 +82,17 @@ struct WorkerBanned {
   std::string name;
   bool is_banned = false;
 };
-struct WorkerJudged {
-  std::string name;
+/// Who a worker is, and what is known of it.
+struct WorkerKnown {
+  std::string identity;
+  std::string name;  // that it had last
+  bool is_banned = false;
   Trust trust;
 };
 
 struct FarmRecord {
   std::variant<JobAdded, FrameAdded, FrameStarted, TileCommitted, PassesLost, JobChanged, SceneDropped,
-               PictureDropped, JobDropped, WorkerNamed, WorkerDrained, WorkerBanned, WorkerJudged>
+               PictureDropped, JobDropped, WorkerNamed, WorkerDrained, WorkerBanned, WorkerKnown>
       fact;
 };
 

@@ -27,6 +27,11 @@ Worker* Farm::State::worker_named(std::string_view name) {
   return found == workers.end() ? nullptr : &found->second;
 }
 
+const Worker* Farm::State::worker_named(std::string_view name) const {
+  const auto found = std::ranges::find_if(workers, [&](const auto& w) { return w.second.info.name == name; });
+  return found == workers.end() ? nullptr : &found->second;
+}
+
 std::string Farm::State::unique_name(const std::string& wanted) const {
   std::set<std::string_view> taken;
   for (const auto& [id, worker] : workers) taken.insert(worker.info.name);

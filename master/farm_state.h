@@ -32,7 +32,13 @@ struct Farm::State {
   std::map<std::string, SharedData> shared;  // by hash: exactly those that frames have
   std::uint64_t unfinished_bytes = 0;        // of those, each counted once
   std::map<WorkerId, Worker> workers;
-  std::map<std::string, Trust, std::less<>> trust;  // by name
+  /// What is known of a worker by what it is, not by how it calls itself.
+  struct KnownWorker {
+    std::vector<NameId> names;  // under which it came, the last at the end
+    bool is_banned = false;
+    Trust trust;
+  };
+  std::map<std::string, KnownWorker> known_workers;  // by identity; the first 10,000
   // Work on trial is leased in its frame's schedule; it is committed when it is settled.
   std::map<TrialId, Trial> trials;
   std::set<TrialId> open_trials;  // exactly those that want more opinions
@@ -68,6 +74,7 @@ struct Farm::State {
   Job* living_job(JobId id);
   const JobFrame* frame(JobId id, std::optional<std::uint32_t> number) const;
   Worker* worker_named(std::string_view name);
+  const Worker* worker_named(std::string_view name) const;
   std::string unique_name(const std::string& wanted) const;
   NameId id_of_name(const std::string& name);
 
@@ -124,13 +131,22 @@ struct Farm::State {
   void end_trial(const TrialId& id, FarmTime now);
   void drop_trials(FrameId frame, FarmTime now);
   /// It was wrong once more.
-  void disbelieve(const std::string& name, FarmTime now);
-  /// It was wrong too often.
-  void expel(const std::string& name, FarmTime now);
+  void disbelieve(const Opinion& lie, FarmTime now);
   /// What it delivered for unfinished jobs waits again; how many tiles.
-  std::size_t lose_all_of(const std::string& name, FarmTime now);
-  void ban(const std::string& name, FarmTime now);
+  std::size_t lose_all_of(const KnownWorker& worker, FarmTime now);
+  /// Trials go on without what it said.
+  void strike_opinions(const std::string& identity, FarmTime now);
   void wait_again(Job& job, std::uint32_t frame, const Work& work);
+
+  // Who workers are.
+  /// It has come.
+  void meet(const Worker& worker);
+  void record_known(const std::string& identity);
+  /// Of the worker that has this name, or had it last; of several, when they had it one after the other.
+  std::vector<std::string> identities_of(std::string_view name) const;
+  void ban(const std::string& name, FarmTime now);
+  /// Ends what it holds, and its conversation.
+  void turn_away(Worker& worker, const std::string& name, FarmTime now);
 
   /// Gives the worker again what it has. False: it is not needed, or not from this worker.
   bool reattach(Worker& worker, const HeldTile& held, FarmTime now);

@@ -35,15 +35,6 @@ std::vector<WorkerView> Farm::workers() const {
   return views;
 }
 
-std::vector<std::string> Farm::banned() const {
-  return {state_->banned_names.begin(), state_->banned_names.end()};
-}
-
-Trust Farm::trust_in(std::string_view name) const {
-  const auto known = state_->trust.find(name);
-  return known == state_->trust.end() ? Trust{} : known->second;
-}
-
 std::string Farm::name_of_worker(WorkerId id) const {
   const auto worker = state_->workers.find(id);
   return worker == state_->workers.end() ? std::string() : worker->second.info.name;

@@ -170,7 +170,13 @@ void Farm::State::restore(FarmRecord record) {
           },
           [&](const WorkerNamed& named) { id_of_name(named.name); },
           [&](const WorkerDrained& drained) { set_in(drained_names, drained.name, drained.is_drained); },
-          [&](const WorkerJudged& judged) { trust[judged.name] = judged.trust; },
+          [&](const WorkerKnown& worker) {
+            const NameId name = id_of_name(worker.name);
+            KnownWorker& known = known_workers[worker.identity];
+            std::erase(known.names, name);
+            known.names.push_back(name);
+            known.is_banned = worker.is_banned, known.trust = worker.trust;
+          },
           [&](const WorkerBanned& banned) { set_in(banned_names, banned.name, banned.is_banned); },
       },
       record.fact);

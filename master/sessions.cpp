@@ -309,10 +309,12 @@ void Sessions::refuse(Session& session, const std::string& objection) {
 void Sessions::admit(Session& session, const Hello& hello) {
   if (session.dialled && !session.dialled->is_wanted) return refuse(session, "it is no longer dialled");
   const std::string& name = session.dialled ? session.dialled->target.name : hello.name;
-  const auto objection = farm_.apply([&](Farm& farm, FarmTime) { return farm.objection_to(name); });
+  const std::string certificate = session.certificate() ? session.certificate()->facts.id : "";
+  const auto objection =
+      farm_.apply([&](Farm& farm, FarmTime) { return farm.objection_to(name, certificate); });
   if (objection) return refuse(session, *objection);
-  const WorkerInfo info{name,          session.connection.peer(), hello.cpu,    hello.software,
-                        hello.threads, WorkerKind::remote,        hello.process};
+  const WorkerInfo info{name,          session.connection.peer(), hello.cpu,     hello.software,
+                        hello.threads, WorkerKind::remote,        hello.process, certificate};
   const Versions versions = *common_versions(hello.versions, {});
   const auto send = [&session, this, versions](ToWorker message) {
     if (const auto* refused = std::get_if<Refused>(&message)) return refuse(session, refused->reason);

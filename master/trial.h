@@ -19,6 +19,7 @@ struct TrialId {
 /// What one worker says that the pixels are.
 struct Opinion {
   NameId by{};
+  std::string identity{};
   std::uint64_t process = 0;
   bool is_final = false;  // the master's own threads are believed
   std::vector<PassImage> images;

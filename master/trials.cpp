@@ -26,7 +26,7 @@ bool may_judge(const Worker& worker, const TrialId& id, const Trial& trial) {
   if (!may_work(worker) || refuses(worker, id.frame.job)) return false;
   const std::uint64_t process = worker.info.process;
   const auto is_its = [&](const Opinion& o) {
-    return o.by == worker.name || (process != 0 && o.process == process);
+    return o.identity == worker.identity || (process != 0 && o.process == process);
   };
   return std::ranges::none_of(trial.opinions, is_its) && std::ranges::count(trial.asked, worker.id) == 0;
 }
@@ -35,8 +35,9 @@ bool may_judge(const Worker& worker, const TrialId& id, const Trial& trial) {
 
 std::uint32_t Farm::State::opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const {
   if (worker.info.kind == WorkerKind::local) return 1;
-  const auto known = trust.find(worker.info.name);
-  return opinions_wanted(jobs.at(lease.job).spec.verification, known == trust.end() ? Trust{} : known->second,
+  const auto known = known_workers.find(worker.identity);
+  return opinions_wanted(jobs.at(lease.job).spec.verification,
+                         known == known_workers.end() ? Trust{} : known->second.trust,
                          mixed(limits.secret ^ mixed(static_cast<std::uint64_t>(id))));
 }
 
@@ -99,7 +100,8 @@ void Farm::State::hear(Worker& worker, const Lease& lease, std::uint32_t wanted,
   std::erase(trial.asked, worker.id);
   const FarmTime taken = book(worker, lease, result, now);
   const bool is_final = worker.info.kind == WorkerKind::local;
-  trial.opinions.push_back({worker.name, worker.info.process, is_final, std::move(result.images), taken});
+  trial.opinions.push_back(
+      {worker.name, worker.identity, worker.info.process, is_final, std::move(result.images), taken});
   if (const auto right = verdict(trial)) return settle_trial(id, *right, now);
   update_trial(id);
   const auto can_judge = [&](const auto& w) { return may_judge(w.second, id, trial); };
@@ -130,46 +132,48 @@ void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime no
   if (job.message == no_judge_words) job.message.clear();
   ++job.tiles_checked;
   touch(job);
-  std::vector<std::string> liars;
+  std::vector<const Opinion*> lies;
   for (const Opinion& opinion : opinions) {
-    if (opinion.is_final || opinion.by == NameId{}) continue;
-    const std::string name = names[static_cast<std::size_t>(opinion.by)];
-    Trust& known = trust[name];
+    const auto found = known_workers.find(opinion.identity);
+    if (opinion.is_final || found == known_workers.end()) continue;
+    Trust& known = found->second.trust;
     if (agree(opinion, opinions[right])) {
       ++known.good_in_a_row;
     } else {
       known.good_in_a_row = 0, ++known.mismatches;
+      const std::string& name = names[static_cast<std::size_t>(opinion.by)];
       warn("worker " + name + " delivered wrong pixels for tile " + std::to_string(id.tile) + " of " +
                title_of(job, frame) + ": " + names[static_cast<std::size_t>(opinions[right].by)] +
                " and others say otherwise",
            name);
-      liars.push_back(name);
+      lies.push_back(&opinion);
     }
-    record(WorkerJudged{name, known});
+    record_known(opinion.identity);
   }
-  for (const std::string& liar : liars) disbelieve(liar, now);  // first: this commit may be the job's last
+  for (const Opinion* lie : lies) disbelieve(*lie, now);  // first: this commit may be the job's last
   Opinion& believed = opinions[right];
   accept(job, frame, {id.tile, id.passes}, std::move(believed.images), believed.by, believed.taken, now);
 }
 
-void Farm::State::disbelieve(const std::string& name, FarmTime now) {
-  const std::size_t tiles = lose_all_of(name, now);
-  if (tiles > 0)
+void Farm::State::disbelieve(const Opinion& lie, FarmTime now) {
+  const KnownWorker& liar = known_workers.at(lie.identity);
+  const std::string& name = names[static_cast<std::size_t>(lie.by)];
+  if (const std::size_t tiles = lose_all_of(liar, now); tiles > 0)
     tell(count_of_tiles(tiles) + " that worker " + name +
              " delivered for unfinished jobs are rendered again, as it was wrong elsewhere",
          name);
-  if (trust.at(name).mismatches >= most_mismatches) expel(name, now);
+  if (liar.trust.mismatches < most_mismatches) return;
+  ban(names[static_cast<std::size_t>(liar.names.back())], now);
+  warn("worker " + name + " was wrong " + std::to_string(most_mismatches) + " times and is banned", name);
 }
 
-void Farm::State::expel(const std::string& name, FarmTime now) {
-  ban(name, now);
-  warn("worker " + name + " was wrong " + std::to_string(most_mismatches) + " times and is banned", name);
-  std::vector<TrialId> its_trials;
-  for (const auto& [id, trial] : trials) its_trials.push_back(id);
-  for (const TrialId& id : its_trials) {
+void Farm::State::strike_opinions(const std::string& identity, FarmTime now) {
+  std::vector<TrialId> all;
+  for (const auto& [id, trial] : trials) all.push_back(id);
+  for (const TrialId& id : all) {
     Trial& trial = trials.at(id);
-    std::erase_if(trial.opinions,
-                  [&](const Opinion& o) { return names[static_cast<std::size_t>(o.by)] == name; });
+    if (std::erase_if(trial.opinions, [&](const Opinion& o) { return o.identity == identity; }) == 0)
+      continue;
     if (!trial.opinions.empty()) {
       update_trial(id);
       continue;
@@ -179,20 +183,21 @@ void Farm::State::expel(const std::string& name, FarmTime now) {
   }
 }
 
-std::size_t Farm::State::lose_all_of(const std::string& name, FarmTime now) {
+std::size_t Farm::State::lose_all_of(const KnownWorker& worker, FarmTime now) {
   std::size_t tiles = 0;
   for (auto& [id, job] : jobs) {
     if (has_ended(job)) continue;
-    for (JobFrame& frame : job.frames) {
-      if (!frame.canvas) continue;
-      PassesLost lost = delivered_by(id, frame, name_ids.at(name));
-      if (lost.lost.empty()) continue;
-      tiles += lost.lost.size();
-      lose_passes(job, frame, std::move(lost));
-      job.pace.restart(now, job.pixels_done);
-      touch(job);
-      update_queue(job);
-    }
+    for (JobFrame& frame : job.frames)
+      for (const NameId name : worker.names) {
+        if (!frame.canvas) continue;
+        PassesLost lost = delivered_by(id, frame, name);
+        if (lost.lost.empty()) continue;
+        tiles += lost.lost.size();
+        lose_passes(job, frame, std::move(lost));
+        job.pace.restart(now, job.pixels_done);
+        touch(job);
+        update_queue(job);
+      }
   }
   return tiles;
 }

@@ -17,6 +17,10 @@ bool knows_scene(const Worker& worker, const std::string& hash) {
 
 }  // namespace
 
+std::string identity_of(const std::string& wanted_name, const std::string& certificate) {
+  return certificate.empty() ? "name " + wanted_name : certificate;  // an id has no space in it
+}
+
 bool may_work(const Worker& worker) { return !worker.is_drained && !worker.is_stopping; }
 
 bool refuses(const Worker& worker, JobId job) {

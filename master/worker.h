@@ -33,6 +33,7 @@ struct Lease {
 struct Worker {
   WorkerId id{};
   WorkerInfo info;
+  std::string identity;  // who it is, under whatever name
   NameId name{};
   Farm::Send send;
   FarmTime joined{};
@@ -57,6 +58,8 @@ struct Worker {
   std::uint64_t tiles = 0, pixels = 0;
 };
 
+/// Who shows this certificate; without one, who asks for this name.
+std::string identity_of(const std::string& wanted_name, const std::string& certificate);
 bool may_work(const Worker& worker);
 bool refuses(const Worker& worker, JobId job);
 /// Also when it has no room.

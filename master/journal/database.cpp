@@ -11,7 +11,7 @@
 namespace rayfarm {
 namespace {
 
-constexpr int schema_version = 2;
+constexpr int schema_version = 3;
 constexpr int patience_ms = 5000;  // for the journal's other connection, which syncs
 
 // jobs      spec and status: rows.h, sealed by the job; is_live: it is being rendered; crashes: in a row
@@ -19,7 +19,8 @@ constexpr int patience_ms = 5000;  // for the journal's other connection, which 
 // blobs     scenes and assets by hash, sealed; uses: which frames they belong to
 // tiles     one row a commit (sealed by job, frame, id), small, as all are read at a start
 // pixels    those of the commit with the same id, sealed by it
-// workers   all that were here, in the order of their coming
+// workers   names of all that were here, in the order of their coming
+// identities who they are, whatever their names: a row for each name, the last is the latest; the rest is the same in all
 // facts     is_running; lives: how often it was opened; writes: how many transactions there were
 constexpr auto schema = R"(
 CREATE TABLE facts (name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID;
@@ -34,14 +35,20 @@ CREATE TABLE tiles (job INTEGER, frame INTEGER, id INTEGER, body BLOB NOT NULL,
                     PRIMARY KEY (job, frame, id)) WITHOUT ROWID;
 CREATE TABLE pixels (id INTEGER PRIMARY KEY, data BLOB NOT NULL);
 CREATE TABLE workers (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, is_drained INTEGER NOT NULL DEFAULT 0,
-                      is_banned INTEGER NOT NULL DEFAULT 0, good_in_a_row INTEGER NOT NULL DEFAULT 0,
-                      mismatches INTEGER NOT NULL DEFAULT 0);
+                      is_banned INTEGER NOT NULL DEFAULT 0);
 INSERT INTO facts VALUES ('is_running', 0), ('lives', 0), ('writes', 0);
 )";
 
-constexpr auto from_version_1 = R"(
-ALTER TABLE workers ADD COLUMN good_in_a_row INTEGER NOT NULL DEFAULT 0;
-ALTER TABLE workers ADD COLUMN mismatches INTEGER NOT NULL DEFAULT 0;
+constexpr auto identities = R"(
+CREATE TABLE identities (identity TEXT NOT NULL, name TEXT NOT NULL, is_banned INTEGER NOT NULL DEFAULT 0,
+                         good_in_a_row INTEGER NOT NULL DEFAULT 0, mismatches INTEGER NOT NULL DEFAULT 0,
+                         PRIMARY KEY (identity, name));
+)";
+
+constexpr auto from_version_2 = R"(
+INSERT INTO identities SELECT 'name ' || name, name, is_banned, good_in_a_row, mismatches FROM workers ORDER BY id;
+ALTER TABLE workers DROP COLUMN good_in_a_row;
+ALTER TABLE workers DROP COLUMN mismatches;
 )";
 
 /// Its own, so that SQLite gives the write-ahead log the same rights: jobs are nobody else's business.
@@ -68,7 +75,9 @@ void make_schema(SQLite::Database& database, const std::filesystem::path& file) 
   if (version == schema_version) return;
   // Version and tables come in one transaction: there are all of them, or none.
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-  database.exec(version == 1 ? from_version_1 : schema);
+  if (version == 0) database.exec(schema);
+  database.exec(identities);
+  if (version == 2) database.exec(from_version_2);
   database.exec("PRAGMA user_version = " + std::to_string(schema_version));
   transaction.commit();
 }

@@ -200,9 +200,11 @@ void Journal::State::write(const WorkerBanned& banned) {
   database.run("UPDATE workers SET is_banned = ? WHERE name = ?", banned.is_banned, banned.name);
 }
 
-void Journal::State::write(const WorkerJudged& judged) {
-  database.run("UPDATE workers SET good_in_a_row = ?, mismatches = ? WHERE name = ?",
-               judged.trust.good_in_a_row, judged.trust.mismatches, judged.name);
+void Journal::State::write(const WorkerKnown& known) {
+  database.run("INSERT OR REPLACE INTO identities (identity, name) VALUES (?, ?)", known.identity,
+               known.name);
+  database.run("UPDATE identities SET is_banned = ?, good_in_a_row = ?, mismatches = ? WHERE identity = ?",
+               known.is_banned, known.trust.good_in_a_row, known.trust.mismatches, known.identity);
 }
 
 }  // namespace rayfarm

@@ -43,8 +43,7 @@ Journal::Opened Journal::read() try {
 }
 
 void Journal::State::read_workers(Opened& opened) {
-  const Query query = database.query(
-      "SELECT id, name, is_drained, is_banned, good_in_a_row, mismatches FROM workers ORDER BY id");
+  const Query query = database.query("SELECT id, name, is_drained, is_banned FROM workers ORDER BY id");
   while (query->executeStep()) {
     const std::string name = query->getColumn(1);
     workers[name] = query->getColumn(0);
@@ -52,9 +51,14 @@ void Journal::State::read_workers(Opened& opened) {
     add(opened, WorkerNamed{name});
     if (query->getColumn(2).getInt()) add(opened, WorkerDrained{name, true});
     if (query->getColumn(3).getInt()) add(opened, WorkerBanned{name, true});
-    const Trust trust{query->getColumn(4).getUInt(), query->getColumn(5).getUInt()};
-    if (trust != Trust{}) add(opened, WorkerJudged{name, trust});
   }
+  const Query known = database.query(
+      "SELECT identity, name, is_banned, good_in_a_row, mismatches FROM identities ORDER BY rowid");
+  while (known->executeStep())
+    add(opened, WorkerKnown{known->getColumn(0),
+                            known->getColumn(1),
+                            known->getColumn(2).getInt() != 0,
+                            {known->getColumn(3).getUInt(), known->getColumn(4).getUInt()}});
 }
 
 void Journal::State::read_job(Opened& opened, JobId id) {

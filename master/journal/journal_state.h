@@ -50,7 +50,7 @@ struct Journal::State {
   void write(const WorkerNamed& named);
   void write(const WorkerDrained& drained);
   void write(const WorkerBanned& banned);
-  void write(const WorkerJudged& judged);
+  void write(const WorkerKnown& known);
   void keep_blob(FrameId user, const std::string& hash, const SharedBytes& bytes);
   void drop_scene(FrameId id);
   void drop_tiles(FrameId id);

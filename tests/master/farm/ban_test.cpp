@@ -45,6 +45,27 @@ TEST(Farm, ABannedNameIsNotTakenInUntilItIsUnbanned) {
   EXPECT_TRUE(farm.banned().empty());
 }
 
+TEST(Farm, ABannedWorkerDoesNotReturnUnderAnotherName) {
+  Farm farm;
+  WorkerInfo info = remote("pc");
+  info.certificate = "c0";
+  FakeWorker first(farm, info), second(farm, info);
+  EXPECT_EQ(second.name(), "pc-2");
+  EXPECT_TRUE(farm.ban("pc-2", 1s));
+  EXPECT_NE(refusal_in(first.take_messages()), "") << "it is the same worker";
+  EXPECT_TRUE(farm.objection_to("innocent", "c0"));
+  EXPECT_FALSE(farm.objection_to("innocent", "c1"));
+  EXPECT_TRUE(farm.unban("pc-2", 2s));
+  EXPECT_FALSE(farm.objection_to("innocent", "c0"));
+}
+
+TEST(Farm, ABannedWorkerDoesNotReturnWhileItsOldConnectionIsThere) {
+  Farm farm;
+  FakeWorker worker(farm, remote("pc"));
+  EXPECT_TRUE(farm.ban("pc", 1s));
+  EXPECT_TRUE(farm.objection_to("pc"));
+}
+
 TEST(Farm, NobodyBansWhoNeverWasThereNorTheMastersOwnThreads) {
   Farm farm;
   WorkerInfo own = remote("master");

@@ -64,5 +64,69 @@ TEST(Trials, OneWorkerThatNeverAnswersStopsNoJob) {
       }
 }
 
+TEST(Trials, OneWorkerOnTwoConnectionsIsNoQuorum) {
+  for (const std::string certificate : {"", "c0"}) {
+    Farm farm;
+    WorkerInfo info = remote("pc"), again = remote(certificate.empty() ? "pc" : "other");
+    info.certificate = again.certificate = certificate;
+    FakeWorker first(farm, info), second(farm, again);
+    const JobId job = farm.submit(verified(Quorum{2}), 0s);
+    while (!first.held().empty() || !second.held().empty())
+      deliver_one(farm, first, 1s), deliver_one(farm, second, 1s);
+    EXPECT_EQ(farm.job(job, 1s)->pixels_done, 0u);
+    FakeWorker other(farm, remote("third"), 2s);
+    while (!other.held().empty()) deliver_one(farm, other, 2s);
+    expect_right_picture(farm, job, 2s);
+  }
+}
+
+TEST(Trials, WhoTakesTheNameOfATrustedWorkerIsNotTrusted) {
+  Farm farm;
+  WorkerInfo trusted = remote("pc"), judge = remote("judge"), heir = remote("pc");
+  trusted.certificate = "c0", judge.certificate = "c1", heir.certificate = "c2";
+  FakeWorker pc(farm, trusted), other(farm, judge);
+  farm.submit(verified(Audit{1}), 0s);
+  while (!pc.held().empty() || !other.held().empty()) deliver_one(farm, pc, 1s), deliver_one(farm, other, 1s);
+  EXPECT_GT(farm.trust_in("pc").good_in_a_row, 0u);
+  farm.remove_worker(pc.id(), "gone", 2s);
+  FakeWorker impostor(farm, heir, 2s);
+  EXPECT_EQ(impostor.name(), "pc");
+  EXPECT_EQ(farm.trust_in("pc"), Trust{});
+}
+
+TEST(Trials, AWorkersLiesGoUnderWhateverNameItDeliveredThem) {
+  Farm farm;
+  WorkerInfo info = remote("pc", 1);
+  info.certificate = "c0";
+  const JobId job = farm.submit(job_of(forty_tiles), 0s);
+  FakeWorker liar(farm, info);
+  for (int i = 0; i < 10; ++i) deliver_one(farm, liar, 1s, one_percent);
+  farm.remove_worker(liar.id(), "gone", 2s);
+  info.name = "innocent";
+  JobSpec spec = verified(Quorum{2});
+  spec.priority = 90;
+  const JobId checked = farm.submit(spec, 2s);
+  FakeWorker again(farm, info, 2s), a(farm, remote("a"), 2s), b(farm, remote("b"), 2s);
+  while (!again.held().empty() || !a.held().empty() || !b.held().empty()) {
+    deliver_one(farm, again, 3s, one_percent);
+    deliver_one(farm, a, 3s), deliver_one(farm, b, 3s);
+  }
+  EXPECT_TRUE(is_banned(farm, "innocent"));
+  expect_right_picture(farm, checked, 3s);
+  expect_right_picture(farm, job, 3s);
+}
+
+TEST(Trials, WhatABannedWorkerSaidCountsNoMore) {
+  Farm farm;
+  FakeWorker liar(farm, remote("liar"));
+  const JobId job = farm.submit(verified(Quorum{2}), 0s);
+  while (!liar.held().empty()) deliver_one(farm, liar, 1s, one_percent);
+  farm.ban("liar", 2s);
+  FakeWorker a(farm, remote("a"), 2s), b(farm, remote("b"), 2s);
+  while (!a.held().empty() || !b.held().empty()) deliver_one(farm, a, 3s), deliver_one(farm, b, 3s);
+  expect_right_picture(farm, job, 3s);
+  EXPECT_EQ(farm.trust_in("liar"), Trust{}) << "nobody asked";
+}
+
 }  // namespace
 }  // namespace rayfarm

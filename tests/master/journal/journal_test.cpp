@@ -134,13 +134,45 @@ TEST(Journal, TakesOverOneOfTheFirstVersion) {
   kept.close();
   {
     SQLite::Database database(kept.file().string(), SQLite::OPEN_READWRITE);
-    database.exec("ALTER TABLE workers DROP COLUMN good_in_a_row");
-    database.exec("ALTER TABLE workers DROP COLUMN mismatches");
+    database.exec("DROP TABLE identities");
     database.exec("PRAGMA user_version = 1");
   }
   kept.open();
   EXPECT_TRUE(kept.opened().warnings.empty());
   expect_same(before, kept.farm(), 20s);
+}
+
+TEST(Journal, TakesOverWhomOneOfTheSecondVersionTrusted) {
+  KeptFarm kept;
+  FakeWorker(kept.farm(), {.name = "pc"});
+  kept.keep();
+  kept.close();
+  {
+    SQLite::Database database(kept.file().string(), SQLite::OPEN_READWRITE);
+    database.exec("DROP TABLE identities");
+    database.exec("ALTER TABLE workers ADD COLUMN good_in_a_row INTEGER NOT NULL DEFAULT 0");
+    database.exec("ALTER TABLE workers ADD COLUMN mismatches INTEGER NOT NULL DEFAULT 0");
+    database.exec("UPDATE workers SET good_in_a_row = 7, mismatches = 1");
+    database.exec("PRAGMA user_version = 2");
+  }
+  kept.open();
+  EXPECT_EQ(kept.farm().trust_in("pc"), (Trust{7, 1}));
+}
+
+TEST(Journal, KnowsAWorkerByItsCertificateWhateverItsName) {
+  KeptFarm kept;
+  {
+    FakeWorker pc(kept.farm(), {.name = "pc", .certificate = "c0"});
+    kept.farm().remove_worker(pc.id(), "gone", 1s);
+    FakeWorker again(kept.farm(), {.name = "other", .certificate = "c0"}, 1s);
+    kept.farm().ban("other", 1s);
+  }
+  kept.keep();
+  kept.crash();
+  EXPECT_TRUE(kept.farm().objection_to("third", "c0"));
+  EXPECT_FALSE(kept.farm().objection_to("third", "c1"));
+  kept.farm().unban("other", 2s);
+  EXPECT_FALSE(kept.farm().objection_to("third", "c0"));
 }
 
 TEST(Journal, NamesAJobThatWasLiveAtTwoCrashesInARow) {

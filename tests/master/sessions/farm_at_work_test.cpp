@@ -53,6 +53,23 @@ TEST(FarmAtWork, MakesTheFilmOverEncryptedConnectionsWhoeverDials) {
   EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
 }
 
+TEST(FarmAtWork, KnowsAWorkerByItsCertificateWhateverItsName) {
+  const FarmKeys keys;
+  MasterThread master(patient_door(), {"127.0.0.1", 0}, keys.of_master());
+  const Identity own = keys.identity(PeerRole::worker, "lab");
+  WorkerOptions one = worker_for(master.address(), "one"), two = worker_for(master.address(), "two"),
+                other = worker_for(master.address(), "other");
+  one.security = keys.of_worker(own), two.security = keys.of_worker(own);
+  other.security = keys.of_worker("lab");
+  WorkerThread first(one, prepare_positions), second(two, prepare_positions), third(other, prepare_positions);
+  master.wait_for_workers(3);
+  std::map<std::string, std::string> certificates;
+  for (const WorkerView& worker : master.ask([](Farm&farm, FarmTime) { return farm.workers(); }))
+    certificates[worker.info.name] = worker.info.certificate;
+  EXPECT_EQ(certificates.at("one"), certificates.at("two"));
+  EXPECT_NE(certificates.at("one"), certificates.at("other"));
+}
+
 TEST(FarmAtWork, TakesNoPlaintextWhenItIsClosed) {
   const FarmKeys keys;
   MasterThread master(patient_door(), {"127.0.0.1", 0}, keys.of_master());

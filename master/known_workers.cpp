@@ -1,0 +1,109 @@
+// Who workers are, whatever they call themselves, and who is not let in.
+#include <algorithm>
+#include <utility>
+
+#include "master/farm_state.h"
+
+namespace rayfarm {
+namespace {
+
+constexpr std::size_t most_known = 10'000;  // without certificates anybody may come as somebody new each time
+
+std::string words_for_banned(std::string_view name) {
+  return "worker " + std::string(name) + " is banned from this farm; rayfarm unban " + std::string(name) +
+         " lets it in again";
+}
+
+}  // namespace
+
+void Farm::State::meet(const Worker& worker) {
+  if (worker.info.kind == WorkerKind::local || worker.name == NameId{}) return;
+  if (known_workers.size() >= most_known && !known_workers.contains(worker.identity)) return;
+  std::vector<NameId>& its_names = known_workers[worker.identity].names;
+  if (!its_names.empty() && its_names.back() == worker.name) return;
+  std::erase(its_names, worker.name);
+  its_names.push_back(worker.name);
+  record_known(worker.identity);
+}
+
+void Farm::State::record_known(const std::string& identity) {
+  const KnownWorker& known = known_workers.at(identity);
+  record(WorkerKnown{identity, names[static_cast<std::size_t>(known.names.back())], known.is_banned,
+                     known.trust});
+}
+
+std::vector<std::string> Farm::State::identities_of(std::string_view name) const {
+  if (const Worker* worker = worker_named(name)) return {worker->identity};
+  std::vector<std::string> identities;
+  for (const auto& [identity, known] : known_workers)
+    if (names[static_cast<std::size_t>(known.names.back())] == name) identities.push_back(identity);
+  return identities;
+}
+
+bool Farm::ban(std::string_view name, FarmTime now) {
+  const Worker* worker = state_->worker_named(name);
+  const auto was_here = state_->name_ids.find(std::string(name));
+  if (was_here == state_->name_ids.end() || (worker && worker->info.kind == WorkerKind::local)) return false;
+  state_->ban(was_here->first, now);
+  state_->fill_all(now);
+  return true;
+}
+
+void Farm::State::ban(const std::string& name, FarmTime now) {
+  if (banned_names.insert(name).second) {
+    tell("worker " + name + " banned", name);
+    record(WorkerBanned{name, true});
+  }
+  for (const std::string& identity : identities_of(name)) {
+    for (auto& [id, worker] : workers)
+      if (worker.identity == identity && worker.info.kind == WorkerKind::remote) turn_away(worker, name, now);
+    strike_opinions(identity, now);
+    const auto known = known_workers.find(identity);
+    if (known == known_workers.end() || std::exchange(known->second.is_banned, true)) continue;
+    record_known(identity);
+  }
+}
+
+void Farm::State::turn_away(Worker& worker, const std::string& name, FarmTime now) {
+  end_leases(worker, now);
+  worker.is_stopping = true;
+  worker.send(Refused{words_for_banned(name)});
+}
+
+bool Farm::unban(std::string_view name, FarmTime) {
+  const auto banned = state_->banned_names.find(name);
+  if (banned == state_->banned_names.end()) return state_->worker_named(name) != nullptr;
+  state_->tell("worker " + *banned + " no longer banned", *banned);
+  state_->record(WorkerBanned{*banned, false});
+  for (const std::string& identity : state_->identities_of(name)) {
+    const auto known = state_->known_workers.find(identity);
+    if (known == state_->known_workers.end()) continue;
+    known->second.is_banned = false, known->second.trust = {};
+    state_->record_known(identity);
+  }
+  state_->banned_names.erase(banned);
+  return true;
+}
+
+std::optional<std::string> Farm::objection_to(const std::string& wanted_name,
+                                              const std::string& certificate) const {
+  const auto known = state_->known_workers.find(identity_of(wanted_name, certificate));
+  if (known != state_->known_workers.end() && known->second.is_banned)
+    return words_for_banned(state_->names[static_cast<std::size_t>(known->second.names.back())]);
+  for (const std::string& name : {wanted_name, state_->unique_name(wanted_name)})
+    if (state_->banned_names.contains(name)) return words_for_banned(name);
+  return std::nullopt;
+}
+
+std::vector<std::string> Farm::banned() const {
+  return {state_->banned_names.begin(), state_->banned_names.end()};
+}
+
+Trust Farm::trust_in(std::string_view name) const {
+  const std::vector<std::string> identities = state_->identities_of(name);
+  const auto known =
+      identities.empty() ? state_->known_workers.end() : state_->known_workers.find(identities.front());
+  return known == state_->known_workers.end() ? Trust{} : known->second.trust;
+}
+
+}  // namespace rayfarm
