@@ -11,9 +11,9 @@ namespace {
 /// The job that has the key of this submission already. Throws KeyTaken if it is not what is wanted.
 JobId same_job(const Job& job, const JobSpec& wanted) {
   if (job.frames.front().scene_hash != wanted.scene_hash || job.spec.settings != wanted.settings ||
-      job.spec.frames != wanted.frames)
+      job.spec.frames != wanted.frames || job.spec.verification != wanted.verification)
     throw KeyTaken("the key " + wanted.key + " belongs to " + title_of(job) +
-                   ", which has another scene or other settings; choose another key");
+                   ", which has another scene, other settings or another verification; choose another key");
   return job.id;
 }
 

@@ -211,7 +211,8 @@ class Farm {
   void receive(WorkerId worker, GiveBack given, FarmTime now);
 
   /// What of this is still to be done, it is asked to do; what others are asked already too, if it has finished it.
-  /// The rest it is told to forget.
+  /// The rest it is told to forget. Once, before its first result, and no more than a worker can hold; else it throws
+  /// WorkerError.
   void receive(WorkerId worker, const Holds& holds, FarmTime now);
 
   /// Time goes by: to be called each 100 ms or so. Work that nobody ends is noticed by it.

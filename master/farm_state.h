@@ -114,6 +114,8 @@ struct Farm::State {
   // Trials.
   std::uint32_t opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const;
   bool may_judge_now(const Worker& worker, const TrialId& id) const;
+  int priority_of(const TrialId& id) const;
+  // Of the job of highest priority, then the one submitted first.
   /// That wants an opinion.
   std::optional<TrialId> next_trial_for(const Worker& worker) const;
   /// Others are asked already, who may never answer.
@@ -150,6 +152,9 @@ struct Farm::State {
 
   /// Gives the worker again what it has. False: it is not needed, or not from this worker.
   bool reattach(Worker& worker, const HeldTile& held, FarmTime now);
+  // It is finished, and others have a lease of it, or it is on trial.
+  bool reattach_as_check(Worker& worker, const Assignment& work, FarmTime now);
+  bool reattach_as_copy(Worker& worker, const Assignment& work, FarmTime now);
 
   // Taking it back; none of them gives it out again.
   void end_lease(Worker& worker, LeaseId id, FarmTime now);
@@ -201,7 +206,7 @@ struct Farm::State {
   /// Those that are not in the film are to be rendered again.
   void lose_unread(Job& job, JobFrame& frame, const RayCounters& counters);
   /// Were committed, and wait again.
-  void lose_passes(Job& job, JobFrame& frame, PassesLost lost);
+  void lose_passes(Job& job, JobFrame& frame, const PassesLost& lost);
   /// It was done, and is no longer.
   void reopen(Job& job, JobFrame& frame);
   void unkeep(JobFrame& frame);

@@ -151,7 +151,7 @@ std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size f
     if (image.rgb.size() != floats)
       return "pass " + std::to_string(image.pass) + " has " + std::to_string(image.rgb.size()) +
              " floats, not " + std::to_string(floats);
-    if (std::ranges::any_of(image.rgb, [](float value) { return std::isnan(value); }))
+    if (std::ranges::any_of(image.rgb, [](float value) { return !std::isfinite(value); }))
       return "pass " + std::to_string(image.pass) + " has pixels that are no numbers";
   }
   if (delivered != work.passes)

@@ -1,15 +1,33 @@
 // Workers that come back with work of an earlier conversation: with this master, or with the one that died.
 #include <algorithm>
+#include <utility>
 
 #include "master/farm_state.h"
 
 namespace rayfarm {
+namespace {
+
+constexpr std::size_t most_held =
+    2048 + 64;  // a worker keeps 2048 (crew.cpp); each costs a look at all leases
+
+}  // namespace
 
 void Farm::receive(WorkerId id, const Holds& holds, FarmTime now) {
   Worker& worker = state_->workers.at(id);
+  if (std::exchange(worker.has_spoken, true))
+    throw WorkerError("it told again, or too late, what it holds; it may do so once, before any result");
+  if (holds.tiles.size() > most_held)
+    throw WorkerError("it says that it holds " + std::to_string(holds.tiles.size()) + " tiles; at most " +
+                      std::to_string(most_held) + " can be");
   Unneeded unneeded;
-  for (const HeldTile& held : holds.tiles)
-    if (!state_->reattach(worker, held, now)) unneeded.leases.push_back(held.work.lease);
+  std::size_t unfinished = 0;
+  for (const HeldTile& held : holds.tiles) {
+    const bool is_too_many = !held.is_finished && unfinished == leases_at_hand(worker);
+    if (is_too_many || !state_->reattach(worker, held, now))
+      unneeded.leases.push_back(held.work.lease);
+    else if (!held.is_finished)
+      ++unfinished;
+  }
   const std::size_t kept = holds.tiles.size() - unneeded.leases.size();
   if (kept > 0)
     state_->tell("worker " + worker.info.name + " goes on with " + count_of_tiles(kept) + " that it held",
@@ -33,9 +51,26 @@ bool Farm::State::reattach(Worker& worker, const HeldTile& held, FarmTime now) {
   if (waiting.passes != 0) {
     schedule.take(waiting);
     give(worker, *job, frame, waiting, now);
+  } else if (!held.is_finished ||
+             !(reattach_as_check(worker, work, now) || reattach_as_copy(worker, work, now))) {
+    return false;
+  }
+  worker.leases.at(LeaseId{last_lease}).is_reattached = true;
+  return true;
+}
+
+bool Farm::State::reattach_as_check(Worker& worker, const Assignment& work, FarmTime now) {
+  const FrameId frame{work.job, work.frame};
+  for (auto trial = trials.lower_bound({frame, work.tile, 0});
+       trial != trials.end() && trial->first.frame == frame && trial->first.tile == work.tile; ++trial) {
+    if ((trial->first.passes & ~work.passes) != 0 || !may_judge_now(worker, trial->first)) continue;
+    give_trial(worker, trial->first, now);
     return true;
   }
-  if (!held.is_finished) return false;
+  return false;
+}
+
+bool Farm::State::reattach_as_copy(Worker& worker, const Assignment& work, FarmTime now) {
   for (auto& [id, holder] : workers)
     for (auto& [lease_id, lease] : holder.leases) {
       const bool is_it = lease.job == work.job && lease.frame == work.frame && lease.work.tile == work.tile &&

@@ -43,6 +43,7 @@ std::string seconds(FarmTime time) {
 
 void Farm::receive(WorkerId id, Result result, FarmTime now) {
   Worker& worker = state_->workers.at(id);
+  worker.has_spoken = true;
   if (!worker.leases.contains(result.lease)) return state_->compare_late(worker, result);
 
   const Lease lease = worker.leases.at(result.lease);
@@ -71,7 +72,7 @@ void Farm::State::deliver(Worker& worker, const Lease& lease, Result result, Far
 
 FarmTime Farm::State::book(Worker& worker, const Lease& lease, const Result& result, FarmTime now) {
   const FarmTime taken = believed_time(lease, result.seconds, now);
-  learn_speed(worker, lease, counters_of(result.images).rays(), taken);
+  if (!lease.is_reattached) learn_speed(worker, lease, counters_of(result.images).rays(), taken);
   ++worker.tiles;
   worker.pixels += lease.samples / jobs.at(lease.job).spec.settings.spp;
   return taken;

@@ -45,18 +45,23 @@ bool Farm::State::may_judge_now(const Worker& worker, const TrialId& id) const {
   return jobs.at(id.frame.job).state == JobState::running && may_judge(worker, id, trials.at(id));
 }
 
+int Farm::State::priority_of(const TrialId& id) const { return jobs.at(id.frame.job).spec.priority; }
+
 std::optional<TrialId> Farm::State::next_trial_for(const Worker& worker) const {
-  const auto found =
-      std::ranges::find_if(open_trials, [&](const TrialId& id) { return may_judge_now(worker, id); });
-  return found == open_trials.end() ? std::nullopt : std::optional(*found);
+  std::optional<TrialId> next;
+  for (const TrialId& id : open_trials)
+    if ((!next || priority_of(id) > priority_of(*next)) && may_judge_now(worker, id)) next = id;
+  return next;
 }
 
 std::optional<TrialId> Farm::State::asked_trial_for(const Worker& worker) const {
   const bool is_final = worker.info.kind == WorkerKind::local;
-  const auto found = std::ranges::find_if(trials, [&](const auto& t) {
-    return (is_final || bears_another_opinion(t.second)) && may_judge_now(worker, t.first);
-  });
-  return found == trials.end() ? std::nullopt : std::optional(found->first);
+  std::optional<TrialId> next;
+  for (const auto& [id, trial] : trials)
+    if ((is_final || bears_another_opinion(trial)) && (!next || priority_of(id) > priority_of(*next)) &&
+        may_judge_now(worker, id))
+      next = id;
+  return next;
 }
 
 void Farm::State::give_trial(Worker& worker, const TrialId& id, FarmTime now) {
@@ -190,10 +195,10 @@ std::size_t Farm::State::lose_all_of(const KnownWorker& worker, FarmTime now) {
     for (JobFrame& frame : job.frames)
       for (const NameId name : worker.names) {
         if (!frame.canvas) continue;
-        PassesLost lost = delivered_by(id, frame, name);
+        const PassesLost lost = delivered_by(id, frame, name);
         if (lost.lost.empty()) continue;
         tiles += lost.lost.size();
-        lose_passes(job, frame, std::move(lost));
+        lose_passes(job, frame, lost);
         job.pace.restart(now, job.pixels_done);
         touch(job);
         update_queue(job);

@@ -73,24 +73,24 @@ void Farm::State::lose_unread(Job& job, JobFrame& frame, const RayCounters& coun
   const std::string what = count_of_tiles(tiles) + " of its picture " +
                            (tiles == 1 ? "was damaged on the disk" : "were damaged on the disk");
   warn(title_of(job, frame) + ": " + what);
-  lose_passes(job, frame, std::move(damage));
+  lose_passes(job, frame, damage);
   if (job.state == JobState::cancelled || job.state == JobState::failed) return;
   pause(job, what + "; resume it, and that is rendered again");
 }
 
-void Farm::State::lose_passes(Job& job, JobFrame& frame, PassesLost lost) {
+void Farm::State::lose_passes(Job& job, JobFrame& frame, const PassesLost& lost) {
+  record(lost);
   const bool was_complete = is_complete(job, frame);
   job.pixels_done -= frame.pixels_done;
   lose(job, frame, lost);
   job.pixels_done += frame.pixels_done;
   job.counters = job.counters - lost.counters;
   if (frame.canvas->film && frame.canvas->film->pixels_done() != frame.pixels_done) {
-    // Somebody may look at the old one.
-    const auto film = std::make_shared<Film>(*frame.canvas->film);
+    std::shared_ptr<Film>& film = frame.canvas->film;
+    // Somebody may look at the old one; at a complete one also on another thread, whose last look has no date here.
+    if (was_complete || film.use_count() > 1) film = std::make_shared<Film>(*film);
     for (const Work& work : lost.lost) film->take_out(work.tile, work.passes);
-    frame.canvas->film = film;
   }
-  record(std::move(lost));
   const std::uint32_t place = job.spec.frames->index_of(frame.number).value();
   if (was_complete) --job.frames_done;
   job.first_unfinished = std::min(job.first_unfinished, place);

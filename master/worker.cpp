@@ -32,11 +32,13 @@ bool may_be_given(const Worker& worker, JobId job) {
   return may_work(worker) && !refuses(worker, job) && worker.leases.size() < most_leases;
 }
 
+std::size_t leases_at_hand(const Worker& worker) { return std::size_t{worker.info.threads} + spare_leases; }
+
 bool has_room_for(const Worker& worker, JobId job) {
   const std::uint32_t threads = worker.info.threads;
   if (worker.leases.size() >= most_leases) return false;
   const bool is_new = worker.tiles == 0;  // who knows how long it will take
-  if (worker.leases.size() < std::size_t{threads} + (is_new ? 0 : spare_leases)) return true;
+  if (worker.leases.size() < (is_new ? threads : leases_at_hand(worker))) return true;
   const auto known = worker.jobs.find(job);
   if (known == worker.jobs.end()) return false;
   const double samples_per_second = known->second.speed.per_second() * threads;

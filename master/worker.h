@@ -27,7 +27,8 @@ struct Lease {
     LeaseId lease{};
   };
   std::optional<Twin> twin{};
-  bool is_check = false;  // an opinion on a trial is asked for
+  bool is_check = false;       // an opinion on a trial is asked for
+  bool is_reattached = false;  // the work was begun before the lease: its age tells nothing of the speed
 };
 
 struct Worker {
@@ -40,6 +41,7 @@ struct Worker {
   bool is_drained = false;
   bool is_stopping = false;  // said so itself
   bool was_contradicted = false;
+  bool has_spoken = false;  // work was handed in, or held work was told of
 
   /// What is known of the worker and a job that it had work of.
   struct KnownJob {
@@ -64,6 +66,8 @@ bool may_work(const Worker& worker);
 bool refuses(const Worker& worker, JobId job);
 /// Also when it has no room.
 bool may_be_given(const Worker& worker, JobId job);
+/// How many it may have begun, or has at hand for when one ends.
+std::size_t leases_at_hand(const Worker& worker);
 /// Whether a lease of this job would keep it busier, not just make its queue longer.
 bool has_room_for(const Worker& worker, JobId job);
 WorkerView view_of(const Worker& worker);

@@ -79,8 +79,9 @@ TEST(Reattach, WhatIsFinishedIsAskedForThoughAnotherHoldsItButWhatIsNotIsLeftToT
 
 TEST(Reattach, WhatIsThereAlreadyIsUnneeded) {
   DeadMaster dead;
-  FakeWorker worker(dead.farm, remote("pc"), 2s);
-  while (!worker.held().empty()) worker.finish_one(3s);
+  FakeWorker other(dead.farm, remote("other"), 2s);
+  while (!other.held().empty()) other.finish_one(3s);
+  FakeWorker worker(dead.farm, remote("pc"), 3s);
   dead.farm.receive(worker.id(), Holds{{{dead.held[0], true}}}, 3s);
   EXPECT_TRUE(worker.held().empty());
   EXPECT_EQ(unneeded_in(worker.take_messages()), std::vector{dead.held[0].lease});
@@ -132,6 +133,76 @@ TEST(Reattach, AfterTheNetworkWasCutAWorkerGoesOnToo) {
   FakeWorker again(farm, remote("pc", 1), 3s);
   farm.receive(again.id(), Holds{{{held[1], false}}}, 3s);
   EXPECT_TRUE(holds_tile(again, held[1].tile));
+  while (!again.held().empty()) again.finish_one(4s);
+  EXPECT_EQ(farm.job(job, 4s)->counters, made_up_counters(ten_tiles));
+}
+
+TEST(Reattach, WhatWasRenderedBeforeTeachesNoSpeed) {
+  for (const bool is_copy : {false, true}) {
+    DeadMaster dead;
+    std::optional<FakeWorker> other;
+    if (is_copy) other.emplace(dead.farm, remote("other", 8), 2s);
+    FakeWorker worker(dead.farm, remote("pc", 1), 2s);
+    const Assignment held = is_copy ? dead.held.front() : dead.held.back();
+    dead.farm.receive(worker.id(), Holds{{{held, true}}}, 2s);
+    const auto given = std::ranges::find(worker.held(), held.tile, &Assignment::tile);
+    ASSERT_NE(given, worker.held().end());
+    const Result result = rendered(*given, ten_tiles, 1);
+    worker.drop(result.lease);
+    dead.farm.receive(worker.id(), result, 2s + 1ms);
+    EXPECT_EQ(dead.farm.workers().back().samples_per_second, 0);
+    EXPECT_LE(worker.held().size(), 3u);
+  }
+}
+
+TEST(Reattach, WhatItHoldsAWorkerTellsOnceAndBeforeItsFirstResult) {
+  DeadMaster dead;
+  FakeWorker once(dead.farm, remote("pc"), 2s), late(dead.farm, remote("late"), 2s);
+  const Holds holds{{{dead.held[0], true}}};
+  EXPECT_NO_THROW(dead.farm.receive(once.id(), holds, 2s));
+  EXPECT_THROW(dead.farm.receive(once.id(), holds, 2s), WorkerError);
+  late.finish_one(3s);
+  EXPECT_THROW(dead.farm.receive(late.id(), holds, 3s), WorkerError);
+}
+
+TEST(Reattach, AWorkerHoldsNoMoreThanItCan) {
+  DeadMaster dead;
+  FakeWorker worker(dead.farm, remote("pc"), 2s);
+  const Holds too_many{std::vector<HeldTile>(2113, {dead.held[0], true})};
+  EXPECT_THROW(dead.farm.receive(worker.id(), too_many, 2s), WorkerError);
+}
+
+TEST(Reattach, OfWhatIsNotFinishedItGoesOnWithWhatItCanHaveBegun) {
+  DeadMaster dead;
+  FakeWorker worker(dead.farm, remote("pc", 1), 2s);
+  Holds holds;
+  for (std::uint32_t tile = 0; tile < 10; ++tile) {
+    Assignment work = dead.held[0];
+    work.tile = tile, work.lease = LeaseId{100 + tile};
+    holds.tiles.push_back({work, false});
+  }
+  const std::size_t before = worker.held().size();
+  dead.farm.receive(worker.id(), holds, 2s);
+  EXPECT_EQ(worker.held().size(), before + 3) << "one thread, two to spare";
+}
+
+TEST(Reattach, WhatIsFinishedIsAnOpinionWhenItsTileIsOnTrial) {
+  Farm farm;
+  FakeWorker cut(farm, remote("pc"));
+  JobSpec spec = job_of(ten_tiles);
+  spec.verification = Quorum{2};
+  const JobId job = farm.submit(spec, 0s);
+  const std::vector<Assignment> held = cut.held();
+  farm.remove_worker(cut.id(), "it was silent", 1s);
+  FakeWorker other(farm, remote("other", 1), 1s);
+  while (!other.held().empty()) other.finish_one(2s);
+  FakeWorker again(farm, remote("pc", 1), 3s);
+  const auto is_held_anyway = [&](const Assignment& work) { return holds_tile(again, work.tile); };
+  const auto far = std::ranges::find_if_not(held, is_held_anyway);
+  ASSERT_NE(far, held.end());
+  farm.receive(again.id(), Holds{{{*far, true}}}, 3s);
+  EXPECT_TRUE(holds_tile(again, far->tile));
+  EXPECT_TRUE(unneeded_in(again.take_messages()).empty());
   while (!again.held().empty()) again.finish_one(4s);
   EXPECT_EQ(farm.job(job, 4s)->counters, made_up_counters(ten_tiles));
 }

@@ -1,6 +1,8 @@
 // Work on trial: that it comes to an end, and what a lie that was seen brings with it.
 #include <gtest/gtest.h>
 
+#include <map>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -126,6 +128,51 @@ TEST(Trials, WhatABannedWorkerSaidCountsNoMore) {
   while (!a.held().empty() || !b.held().empty()) deliver_one(farm, a, 3s), deliver_one(farm, b, 3s);
   expect_right_picture(farm, job, 3s);
   EXPECT_EQ(farm.trust_in("liar"), Trust{}) << "nobody asked";
+}
+
+TEST(Trials, TheJobOfTheHighestPriorityIsJudgedFirst) {
+  constexpr Size one_tile{64, 64};
+  Farm farm;
+  FakeWorker a(farm, remote("a", 1));
+  std::map<int, JobId> jobs;
+  for (const int priority : {10, 90, 50}) {
+    JobSpec spec = verified(Quorum{2}, one_tile);
+    spec.priority = priority;
+    jobs[priority] = farm.submit(spec, 0s);
+    a.finish_one(1s);
+  }
+  FakeWorker judge(farm, remote("judge", 1), 2s);
+  for (const int priority : {90, 50, 10}) {
+    EXPECT_EQ(judge.held().at(0).job, jobs.at(priority));
+    judge.finish_one(3s);
+  }
+}
+
+TEST(Trials, AFilmThatNobodyLooksAtIsNotCopiedWhenTilesAreLost) {
+  for (const bool is_looked_at : {false, true}) {
+    Farm farm;
+    FakeWorker liar(farm, remote("liar", 1));
+    const JobId other = farm.submit(job_of(forty_tiles), 0s);
+    for (int i = 0; i < 3; ++i) deliver_one(farm, liar, 1s, one_percent);
+    JobSpec spec = verified(Audit{1}, {64, 64});
+    spec.priority = 90;
+    farm.submit(spec, 1s);
+    while (!liar.held().empty() && liar.held()[0].job == other) deliver_one(farm, liar, 1s, one_percent);
+    std::shared_ptr<const Film> film = farm.film(other);
+    const Film* const place = film.get();
+    const std::uint64_t pixels = film->pixels_done();
+    if (!is_looked_at) film.reset();
+    deliver_one(farm, liar, 1s, one_ulp);
+    FakeWorker master(farm, masters_own(), 2s);
+    const Assignment check = master.held().at(0);
+    farm.receive(master.id(), rendered(check, {64, 64}), 3s);
+    EXPECT_EQ(farm.trust_in("liar").mismatches, 1u);
+    EXPECT_EQ(farm.film(other)->pixels_done(), 0u);
+    EXPECT_EQ(farm.film(other).get() == place, !is_looked_at);
+    if (film) {
+      EXPECT_EQ(film->pixels_done(), pixels);
+    }
+  }
 }
 
 }  // namespace

@@ -27,6 +27,16 @@ TEST(Verification, IsReadAsItIsWritten) {
     EXPECT_THROW(parse_verification(text), SettingsError) << text;
 }
 
+TEST(Verification, IsPartOfWhatAKeyStandsFor) {
+  Farm farm;
+  JobSpec spec = verified(Quorum{2});
+  spec.key = "k";
+  const JobId job = farm.submit(spec, 0s);
+  EXPECT_EQ(farm.submit(spec, 0s), job);
+  spec.verification = Quorum{3};
+  EXPECT_THROW(farm.submit(spec, 0s), KeyTaken);
+}
+
 TEST(Verification, NobodyIsAskedWithoutAndAsManyAsAQuorumHas) {
   EXPECT_EQ(opinions_wanted({}, {}, 0), 1u);
   EXPECT_EQ(opinions_wanted(Quorum{3}, {100, 0}, ~0ull), 3u);
@@ -79,14 +89,15 @@ TEST(Verification, ALiarIsBannedAfterTwoWrongTilesWhateverItsLie) {
 }
 
 TEST(Verification, PixelsThatAreNoNumbersAreALieInThemselves) {
-  Farm farm;
-  FakeWorker liar(farm, remote("liar"));
-  farm.submit(job_of(forty_tiles), 0s);
-  EXPECT_THROW(
-      deliver_one(farm, liar, 1s,
-                  [](Result& result) { result.images[1].rgb[7] = std::numeric_limits<float>::quiet_NaN(); }),
-      WorkerError);
-  EXPECT_EQ(farm.film(JobId{1})->pixels_done(), 0u);
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), infinite, -infinite}) {
+    Farm farm;
+    FakeWorker liar(farm, remote("liar"));
+    farm.submit(job_of(forty_tiles), 0s);
+    const auto lie = [value](Result& result) { result.images[1].rgb[7] = value; };
+    EXPECT_THROW(deliver_one(farm, liar, 1s, lie), WorkerError);
+    EXPECT_EQ(farm.film(JobId{1})->pixels_done(), 0u);
+  }
 }
 
 TEST(Verification, AReplayedLeaseChangesNothing) {
