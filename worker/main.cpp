@@ -126,7 +126,7 @@ WorkerOptions options_of(const Arguments& arguments) {
 int serve(WorkerOptions options) {
   // Never destroyed: that would wait for a name that is still being looked up, and hold up a clean stop.
   static auto& io = *new asio::io_context;
-  Worker worker(io, std::move(options));
+  WorkerDaemon worker(io, std::move(options));
   if (const auto address = worker.listening_at())
     std::cout << "rayfarm-worker: listens at " << text_of(*address) << std::endl;
   StopSignals signals(io, [&] {

@@ -12,7 +12,7 @@ namespace rayfarm {
 
 using asio::ip::tcp;
 
-Worker::Worker(asio::io_context& io, WorkerOptions options, PrepareScene prepare)
+WorkerDaemon::WorkerDaemon(asio::io_context& io, WorkerOptions options, PrepareScene prepare)
     : io_(io),
       options_(std::move(options)),
       crew_(options_.identity.threads, std::move(prepare)),
@@ -22,24 +22,24 @@ Worker::Worker(asio::io_context& io, WorkerOptions options, PrepareScene prepare
     acceptor_ = listen_at(io, await->listen, options_.security);
 }
 
-std::optional<Address> Worker::listening_at() const {
+std::optional<Address> WorkerDaemon::listening_at() const {
   if (!acceptor_) return std::nullopt;
   const tcp::endpoint endpoint = acceptor_->local_endpoint();
   return Address{endpoint.address().to_string(), endpoint.port()};
 }
 
-asio::awaitable<void> Worker::run() {
+asio::awaitable<void> WorkerDaemon::run() {
   const auto* dialling = std::get_if<DialMaster>(&options_.way);
   return until_first_ends(dialling ? keep_dialling(dialling->master) : await_masters(), wait_until_stopped());
 }
 
-void Worker::stop() {
+void WorkerDaemon::stop() {
   stopping_ = true;
   if (session_) session_->stop();
   ended_.cancel();
 }
 
-asio::awaitable<void> Worker::wait_until_stopped() {
+asio::awaitable<void> WorkerDaemon::wait_until_stopped() {
   while (!stopping_ || session_) {
     asio::error_code woken;
     co_await ended_.async_wait(asio::redirect_error(asio::use_awaitable, woken));
@@ -48,14 +48,14 @@ asio::awaitable<void> Worker::wait_until_stopped() {
 }
 
 /// One line for each thing that went wrong, not for each attempt.
-void Worker::report(const std::string& loss) {
+void WorkerDaemon::report(const std::string& loss) {
   if (loss != last_loss_) spdlog::warn("{}; trying again", loss);
   last_loss_ = loss;
 }
 
 // A worker that dials. -------------------------------------------------------------------------------------
 
-asio::awaitable<void> Worker::keep_dialling(Address master) {
+asio::awaitable<void> WorkerDaemon::keep_dialling(Address master) {
   asio::steady_timer timer(io_);
   while (!stopping_) {
     auto attempt = try_master(master);
@@ -65,7 +65,7 @@ asio::awaitable<void> Worker::keep_dialling(Address master) {
   }
 }
 
-asio::awaitable<void> Worker::try_master(Address master) {
+asio::awaitable<void> WorkerDaemon::try_master(Address master) {
   try {
     auto dialling = dial(master, options_.security, options_.times.connection.handshake);
     Channel channel = co_await std::move(dialling);
@@ -82,14 +82,14 @@ asio::awaitable<void> Worker::try_master(Address master) {
 
 // A worker that is dialled. --------------------------------------------------------------------------------
 
-asio::awaitable<void> Worker::await_masters() {
+asio::awaitable<void> WorkerDaemon::await_masters() {
   for (;;) {
     tcp::socket socket = co_await accept(*acceptor_);
     asio::co_spawn(io_, serve_stranger(std::move(socket)), asio::detached);
   }
 }
 
-asio::awaitable<void> Worker::serve_stranger(tcp::socket socket) {
+asio::awaitable<void> WorkerDaemon::serve_stranger(tcp::socket socket) {
   asio::error_code unknown;
   const std::string address = socket.remote_endpoint(unknown).address().to_string();
   try {
@@ -103,7 +103,7 @@ asio::awaitable<void> Worker::serve_stranger(tcp::socket socket) {
   }
 }
 
-asio::awaitable<void> Worker::decline(Channel channel) {
+asio::awaitable<void> WorkerDaemon::decline(Channel channel) {
   MasterConnection connection(std::move(channel), options_.times.connection);
   connection.post(Goodbye{"this worker works for another master"});
   connection.finish();
@@ -112,7 +112,7 @@ asio::awaitable<void> Worker::decline(Channel channel) {
 
 // Both. ----------------------------------------------------------------------------------------------------
 
-asio::awaitable<void> Worker::talk(Channel channel) {
+asio::awaitable<void> WorkerDaemon::talk(Channel channel) {
   const auto session =
       std::make_shared<WorkerSession>(std::move(channel), options_.identity, crew_, options_.times);
   session_ = session;

@@ -27,11 +27,11 @@ struct WorkerOptions {
   BackoffTimes backoff;
 };
 
-/// All calls are made from the thread that runs `io`.
-class Worker {
+/// All calls are made from the thread that runs `io`. (A Worker is what a farm knows of one.)
+class WorkerDaemon {
  public:
   /// Throws AddressError when it cannot listen where it should.
-  Worker(asio::io_context& io, WorkerOptions options, PrepareScene prepare = prepare_scene);
+  WorkerDaemon(asio::io_context& io, WorkerOptions options, PrepareScene prepare = prepare_scene);
 
   /// Returns after a clean stop; throws ExposureError when it would take a certificate to talk to the master, and
   /// there is none.

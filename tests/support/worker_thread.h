@@ -41,7 +41,7 @@ class WorkerThread {
 
  private:
   asio::io_context io_;
-  Worker worker_;
+  WorkerDaemon worker_;
   std::future<void> ended_;  // first to go: waits for the thread
 };
 

@@ -228,9 +228,9 @@ TEST(Worker, ThatListensDoesSoOnItsOwnPcUnlessTold) {
   asio::io_context io;
   WorkerOptions options = patient_worker("lab7");
   options.way = AwaitMaster{{"0.0.0.0", 0}};
-  EXPECT_THROW(Worker(io, options, prepare_positions), ExposureError);
+  EXPECT_THROW(WorkerDaemon(io, options, prepare_positions), ExposureError);
   options.security.exposure = Exposure::insecure;
-  EXPECT_NO_THROW(Worker(io, options, prepare_positions));
+  EXPECT_NO_THROW(WorkerDaemon(io, options, prepare_positions));
 }
 
 TEST(Worker, NeedsANameThatCanBeShown) {
