@@ -100,7 +100,7 @@ bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
 }
 
 void Farm::State::end_lease(Worker& worker, LeaseId id, FarmTime now) {
-  const Lease lease = take_lease(worker, id, now);
+  const Lease lease = call_off(worker, id, now);
   Job& job = jobs.at(lease.job);
   job.time_wasted += time_wasted(lease, now);
   ++job.tiles_given_back;
@@ -138,20 +138,20 @@ void Farm::State::revoke_everywhere(JobId job, FarmTime now) {
   for (auto& [id, worker] : workers) revoke(worker, job, now);
 }
 
-void Farm::State::blame(const Lease& oldest, NameId lost, std::uint64_t process, FarmTime now) {
+void Farm::State::blame(const Lease& oldest, const std::string& identity, Canvas::Victim lost, FarmTime now) {
   Job& job = jobs.at(oldest.job);
   JobFrame& frame = frame_at(job, oldest.frame);
   const bool is_first = frame.pixels_done == 0;
-  const auto is_alive = [process](const auto& worker) { return worker.second.info.process == process; };
-  if (process != 0 && std::ranges::any_of(workers, is_alive)) return;  // on another connection
+  const auto is_alive = [&](const auto& worker) { return worker.second.info.process == lost.process; };
+  if (lost.process != 0 && std::ranges::any_of(workers, is_alive)) return;  // on another connection
   Canvas::Victims& victims =
       is_first ? frame.canvas->lost_at_first : frame.canvas->lost_over[oldest.work.tile];
-  victims[lost] = process;
+  victims[identity] = lost;
   frames_with_victims.insert({job.id, frame.number});
   if (victims.size() < most_victims) return;
   std::string who;
-  for (const auto& [name, its_process] : victims)
-    who += (who.empty() ? "" : ", ") + names[static_cast<std::size_t>(name)];
+  for (const auto& [its_identity, victim] : victims)
+    who += (who.empty() ? "" : ", ") + names[static_cast<std::size_t>(victim.name)];
   revoke_everywhere(job.id, now);
   fail(job,
        "workers are lost again and again over " +
@@ -162,7 +162,7 @@ void Farm::State::blame(const Lease& oldest, NameId lost, std::uint64_t process,
 
 void Farm::State::exonerate(std::uint64_t process) {
   if (process == 0) return;
-  const auto is_it = [process](const auto& victim) { return victim.second == process; };
+  const auto is_it = [process](const auto& victim) { return victim.second.process == process; };
   std::erase_if(frames_with_victims, [&](FrameId id) {
     const auto job = jobs.find(id.job);
     if (job == jobs.end()) return true;

@@ -141,7 +141,7 @@ void Farm::State::give_copy(Worker& holder, LeaseId original, Worker& worker, Fa
 
 void Farm::State::end_twin(const Lease::Twin& twin, FarmTime now) {
   Worker& worker = workers.at(twin.worker);
-  const Lease lease = take_lease(worker, twin.lease, now);
+  const Lease lease = call_off(worker, twin.lease, now);
   Job& job = jobs.at(lease.job);
   job.time_wasted += time_wasted(lease, now);
   touch(job);

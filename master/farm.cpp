@@ -29,6 +29,7 @@ Farm::~Farm() = default;
 WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   const WorkerId id{++state_->last_worker};
   std::string identity = identity_of(info.name, info.certificate);
+  state_->end_former_connection(identity, info.process, now);
   info.name = state_->unique_name(info.name);
   state_->exonerate(info.process);
   std::string joined = "worker " + info.name + " joined";
@@ -47,12 +48,15 @@ WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   worker.joined = now;
   state_->tell(worker.is_drained ? joined + "; it is drained" : joined, worker.info.name);
   worker.send(Welcome{worker.info.name});
-  state_->fill(worker, now);
+  state_->fill(worker, now);  // before the others: it may have at hand what was taken from its old connection
+  state_->fill_all(now);
   return id;
 }
 
 void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
-  Worker& worker = state_->workers.at(id);
+  Worker* const here = state_->worker_here(id);
+  if (!here) return;
+  Worker& worker = *here;
   auto oldest = worker.leases.empty() ? std::nullopt : std::optional(worker.leases.begin()->second);
   const std::size_t given_back = state_->end_leases(worker, now).size();
   const std::string what =
@@ -61,11 +65,11 @@ void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
     state_->tell("worker " + worker.info.name + " left" + what, worker.info.name);
   else
     state_->warn("worker " + worker.info.name + " lost" + what, worker.info.name);
-  if (worker.is_stopping) oldest.reset();
-  const NameId name = worker.name;
-  const std::uint64_t process = worker.info.process;
+  if (worker.is_stopping || worker.was_caught) oldest.reset();
+  const std::string identity = worker.identity;
+  const Canvas::Victim lost{worker.name, worker.info.process};
   state_->workers.erase(id);
-  if (oldest) state_->blame(*oldest, name, process, now);
+  if (oldest) state_->blame(*oldest, identity, lost, now);
   state_->fill_all(now);
 }
 

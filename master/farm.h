@@ -25,8 +25,8 @@
 // Memory: a frame costs its scene, which frames of the same hash share; from its first assignment also 12 bytes
 // a pixel for the film (3.7 MB for 640x480, 6 GB for 500 megapixels) and 300 bytes a tile. A frame that is done,
 // or whose job has ended, keeps its film, which is fetched later, and one that is done also its scene, which
-// says how the picture came about, as long as FarmLimits say. Of all workers that there were, the first 10,000 names are kept, to say whose pixels
-// they are.
+// says how the picture came about, as long as FarmLimits say. Of all workers that there were the names are kept, to say
+// whose pixels they are, and whether they lied; whoever would be one too many is not let in.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -90,6 +90,7 @@ struct FarmLimits {
   std::size_t jobs = 1000;           // at least 1; the others are as if they had never been
   std::size_t unfinished_jobs = 10'000;
   std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished frames, each scene and asset once
+  std::size_t worker_names = 10'000;  // that workers had; a worker may come under a new one each time
   std::uint64_t secret = 0;  // that workers do not know: which of their tiles are checked follows from it
 };
 
@@ -153,6 +154,7 @@ struct WorkerView {
   std::uint64_t pixels = 0;       // delivered
   double samples_per_second = 0;  // learned, all its threads; 0: not known yet
   FarmTime joined{};
+  Trust trust;
 };
 
 /// One line for the log. Warnings are what an admin should look at.
@@ -163,7 +165,9 @@ struct FarmEvent {
 };
 
 /// A worker broke the rules of the conversation; the message says how. End its connection and pass the
-/// message to remove_worker as the reason. The lease concerned has ended already, nothing was committed.
+/// message to remove_worker as the reason. The lease concerned has ended already, nothing was committed. It counts as
+/// wrong pixels do, whatever a job's verification: what it delivered for unfinished jobs is rendered again, and the second
+/// time it is banned.
 struct WorkerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -197,13 +201,16 @@ class Farm {
   ~Farm();
 
   /// Sends Welcome with the worker's name (made unique: the second "pc" is "pc-2"; a name is free again when
-  /// its worker is removed), then work. A drained name stays drained until undrain().
+  /// its worker is removed), then work. A drained name stays drained until undrain(). objection_to() it must be nothing.
+  /// The same process of the same worker may be here on another connection, which is not known to be dead yet: that one
+  /// is removed, and sent Goodbye.
   WorkerId add_worker(WorkerInfo info, Send send, FarmTime now);
-  // The worker of the next four must be here: added, not removed.
+  // The next four do nothing when the worker is no longer here.
   /// Its leases go to the others, first of all. The reason is for people.
   void remove_worker(WorkerId worker, std::string reason, FarmTime now);
-  /// Throws WorkerError if the result is not what its lease asked for. A result that comes after its lease
-  /// was revoked is compared with what others delivered: a difference is a warning that names both.
+  /// Throws WorkerError if the result is not what its lease asked for, or the worker has no such lease. One result may
+  /// still come after its lease was revoked: it counts while its tile is on trial, and is compared with what others
+  /// delivered: a difference is a warning that names both.
   void receive(WorkerId worker, Result result, FarmTime now);
   /// With a reason: the worker cannot render the jobs of these leases, and is not offered them again; a job
   /// that every worker gave back so before anything of it was done has failed. Without one: the worker is

@@ -6,11 +6,6 @@
 #include "common/render/settings.h"
 
 namespace rayfarm {
-namespace {
-
-constexpr std::size_t most_names = 10'000;  // a worker may come under a new one each time
-
-}  // namespace
 
 Job* Farm::State::living_job(JobId id) {
   const auto job = jobs.find(id);
@@ -43,7 +38,6 @@ std::string Farm::State::unique_name(const std::string& wanted) const {
 
 NameId Farm::State::id_of_name(const std::string& name) {
   if (const auto known = name_ids.find(name); known != name_ids.end()) return known->second;
-  if (names.size() > most_names) return NameId{};
   const NameId id{static_cast<std::uint32_t>(names.size())};
   names.push_back(name);
   name_ids[name] = id;

@@ -38,12 +38,12 @@ struct Farm::State {
     bool is_banned = false;
     Trust trust;
   };
-  std::map<std::string, KnownWorker> known_workers;  // by identity; the first 10,000
+  std::map<std::string, KnownWorker> known_workers;  // by identity
   // Work on trial is leased in its frame's schedule; it is committed when it is settled.
   std::map<TrialId, Trial> trials;
   std::set<TrialId> open_trials;  // exactly those that want more opinions
   std::set<std::string, std::less<>> drained_names, banned_names;
-  // By NameId: of all workers that there were, as films outlive them; the first stands for those too many.
+  // By NameId: of all workers that there were, as films outlive them; the first stands for those that were not kept.
   std::vector<std::string> names{"(one of many)"};
   std::map<std::string, NameId> name_ids;
   // Exactly the jobs that want workers, the next to be served first.
@@ -114,6 +114,8 @@ struct Farm::State {
   // Trials.
   std::uint32_t opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const;
   bool may_judge_now(const Worker& worker, const TrialId& id) const;
+  /// Some of the work's passes are on trial, and the worker has not said yet what they are.
+  std::optional<TrialId> unheard_trial(const Worker& worker, const Lease& lease) const;
   int priority_of(const TrialId& id) const;
   // Of the job of highest priority, then the one submitted first.
   /// That wants an opinion.
@@ -132,8 +134,10 @@ struct Farm::State {
   /// Nobody is asked any more.
   void end_trial(const TrialId& id, FarmTime now);
   void drop_trials(FrameId frame, FarmTime now);
-  /// It was wrong once more.
-  void disbelieve(const Opinion& lie, FarmTime now);
+  /// It was wrong once more: nothing stays that it delivered, and the second time it is banned.
+  void disbelieve(const std::string& identity, NameId name, FarmTime now);
+  /// It broke the rules of the conversation, which is as bad as wrong pixels. Throws WorkerError.
+  [[noreturn]] void denounce(Worker& worker, const std::string& lie, FarmTime now);
   /// What it delivered for unfinished jobs waits again; how many tiles.
   std::size_t lose_all_of(const KnownWorker& worker, FarmTime now);
   /// Trials go on without what it said.
@@ -141,8 +145,11 @@ struct Farm::State {
   void wait_again(Job& job, std::uint32_t frame, const Work& work);
 
   // Who workers are.
+  Worker* worker_here(WorkerId id);  // null: it has been removed
   /// It has come.
   void meet(const Worker& worker);
+  /// The same program is back before its old connection is known to be dead.
+  void end_former_connection(const std::string& identity, std::uint64_t process, FarmTime now);
   void record_known(const std::string& identity);
   /// Of the worker that has this name, or had it last; of several, when they had it one after the other.
   std::vector<std::string> identities_of(std::string_view name) const;
@@ -164,7 +171,7 @@ struct Farm::State {
   void revoke_everywhere(JobId job, FarmTime now);
 
   /// A worker that was lost may have died of the lease that it held longest.
-  void blame(const Lease& oldest, NameId lost, std::uint64_t process, FarmTime now);
+  void blame(const Lease& oldest, const std::string& identity, Canvas::Victim lost, FarmTime now);
   /// What was lost with that process was not lost for the sake of its work: it is still alive.
   void exonerate(std::uint64_t process);
 
@@ -175,7 +182,9 @@ struct Farm::State {
   void accept(Job& job, JobFrame& frame, const Work& work, std::vector<PassImage> images, NameId by,
               FarmTime taken, FarmTime now);
   void finish(Job& job, JobFrame& frame, FarmTime now);
-  void compare_late(Worker& worker, const Result& result);
+  /// For a lease that has ended: an opinion when its tile is on trial, else compared with what others delivered.
+  void receive_late(Worker& worker, Result result, FarmTime now);
+  void compare_late(Worker& worker, const Lease& lease, const Result& result);
   void refuse(Worker& worker, Job& job, const std::string& reason, FarmTime now);
 
   /// After a change of the job's state, priority or waiting work.

@@ -31,7 +31,11 @@ std::optional<JobView> Farm::job(JobId id, FarmTime now) const {
 std::vector<WorkerView> Farm::workers() const {
   std::vector<WorkerView> views;
   views.reserve(state_->workers.size());
-  for (const auto& [id, worker] : state_->workers) views.push_back(view_of(worker));
+  for (const auto& [id, worker] : state_->workers) {
+    views.push_back(view_of(worker));
+    if (const auto known = state_->known_workers.find(worker.identity); known != state_->known_workers.end())
+      views.back().trust = known->second.trust;
+  }
   return views;
 }
 

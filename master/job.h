@@ -37,10 +37,14 @@ struct Canvas {
   Schedule schedule;
   std::vector<TileDeliveries> deliveries;  // by tile
   std::vector<NameId> deliverers;          // in the order of their first deliveries
-  /// Workers that were lost and have not come back alive, with their WorkerInfo::process.
-  using Victims = std::map<NameId, std::uint64_t>;
-  Victims lost_at_first;                       // before any pixel was there
-  std::map<std::uint32_t, Victims> lost_over;  // later, by the tile that they held longest
+  /// A worker that was lost and has not come back alive.
+  struct Victim {
+    NameId name{};
+    std::uint64_t process = 0;  // WorkerInfo::process
+  };
+  using Victims = std::map<std::string, Victim>;  // by identity
+  Victims lost_at_first;                          // before any pixel was there
+  std::map<std::uint32_t, Victims> lost_over;     // later, by the tile that they held longest
 };
 
 /// Whose scene has come.

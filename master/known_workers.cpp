@@ -7,8 +7,6 @@
 namespace rayfarm {
 namespace {
 
-constexpr std::size_t most_known = 10'000;  // without certificates anybody may come as somebody new each time
-
 std::string words_for_banned(std::string_view name) {
   return "worker " + std::string(name) + " is banned from this farm; rayfarm unban " + std::string(name) +
          " lets it in again";
@@ -17,13 +15,32 @@ std::string words_for_banned(std::string_view name) {
 }  // namespace
 
 void Farm::State::meet(const Worker& worker) {
-  if (worker.info.kind == WorkerKind::local || worker.name == NameId{}) return;
-  if (known_workers.size() >= most_known && !known_workers.contains(worker.identity)) return;
+  if (worker.info.kind == WorkerKind::local) return;
   std::vector<NameId>& its_names = known_workers[worker.identity].names;
   if (!its_names.empty() && its_names.back() == worker.name) return;
   std::erase(its_names, worker.name);
   its_names.push_back(worker.name);
   record_known(worker.identity);
+}
+
+Worker* Farm::State::worker_here(WorkerId id) {
+  const auto here = workers.find(id);
+  return here == workers.end() ? nullptr : &here->second;
+}
+
+void Farm::State::end_former_connection(const std::string& identity, std::uint64_t process, FarmTime now) {
+  const auto former = std::ranges::find_if(workers, [&](const auto& w) {
+    return w.second.info.kind == WorkerKind::remote && w.second.identity == identity &&
+           w.second.info.process == process;
+  });
+  if (process == 0 || former == workers.end()) return;
+  Worker& worker = former->second;
+  const std::size_t given_back = end_leases(worker, now).size();
+  tell("worker " + worker.info.name + " comes again while its old connection is still here; " +
+           count_of_tiles(given_back) + " given back",
+       worker.info.name);
+  worker.send(Goodbye{"you are here on another connection"});
+  workers.erase(former);
 }
 
 void Farm::State::record_known(const std::string& identity) {
@@ -90,6 +107,12 @@ std::optional<std::string> Farm::objection_to(const std::string& wanted_name,
   const auto known = state_->known_workers.find(identity_of(wanted_name, certificate));
   if (known != state_->known_workers.end() && known->second.is_banned)
     return words_for_banned(state_->names[static_cast<std::size_t>(known->second.names.back())]);
+  const bool is_new =
+      known == state_->known_workers.end() || !state_->name_ids.contains(state_->unique_name(wanted_name));
+  if (is_new &&
+      std::max(state_->known_workers.size(), state_->name_ids.size()) >= state_->limits.worker_names)
+    return "this farm has known " + std::to_string(state_->limits.worker_names) +
+           " workers and takes in no new one; give this PC a --name that one of them had";
   for (const std::string& name : {wanted_name, state_->unique_name(wanted_name)})
     if (state_->banned_names.contains(name)) return words_for_banned(name);
   return std::nullopt;

@@ -13,12 +13,17 @@ constexpr std::size_t most_held =
 }  // namespace
 
 void Farm::receive(WorkerId id, const Holds& holds, FarmTime now) {
-  Worker& worker = state_->workers.at(id);
+  Worker* const here = state_->worker_here(id);
+  if (!here) return;
+  Worker& worker = *here;
   if (std::exchange(worker.has_spoken, true))
-    throw WorkerError("it told again, or too late, what it holds; it may do so once, before any result");
+    state_->denounce(worker,
+                     "it told again, or too late, what it holds; it may do so once, before any result", now);
   if (holds.tiles.size() > most_held)
-    throw WorkerError("it says that it holds " + std::to_string(holds.tiles.size()) + " tiles; at most " +
-                      std::to_string(most_held) + " can be");
+    state_->denounce(worker,
+                     "it says that it holds " + std::to_string(holds.tiles.size()) + " tiles; at most " +
+                         std::to_string(most_held) + " can be",
+                     now);
   Unneeded unneeded;
   std::size_t unfinished = 0;
   for (const HeldTile& held : holds.tiles) {
@@ -60,14 +65,9 @@ bool Farm::State::reattach(Worker& worker, const HeldTile& held, FarmTime now) {
 }
 
 bool Farm::State::reattach_as_check(Worker& worker, const Assignment& work, FarmTime now) {
-  const FrameId frame{work.job, work.frame};
-  for (auto trial = trials.lower_bound({frame, work.tile, 0});
-       trial != trials.end() && trial->first.frame == frame && trial->first.tile == work.tile; ++trial) {
-    if ((trial->first.passes & ~work.passes) != 0 || !may_judge_now(worker, trial->first)) continue;
-    give_trial(worker, trial->first, now);
-    return true;
-  }
-  return false;
+  const auto trial = unheard_trial(worker, {work.job, work.frame, {work.tile, work.passes}});
+  if (trial) give_trial(worker, *trial, now);
+  return trial.has_value();
 }
 
 bool Farm::State::reattach_as_copy(Worker& worker, const Assignment& work, FarmTime now) {

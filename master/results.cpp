@@ -8,9 +8,9 @@
 namespace rayfarm {
 namespace {
 
-[[noreturn]] void tell_off(const Result& result, const std::string& fault) {
-  throw WorkerError("wrong result for tile " + std::to_string(result.tile) + " of job " +
-                    std::to_string(static_cast<std::uint64_t>(result.job)) + ": " + fault);
+std::string words_for(const Result& result, const std::string& fault) {
+  return "wrong result for tile " + std::to_string(result.tile) + " of job " +
+         std::to_string(static_cast<std::uint64_t>(result.job)) + ": " + fault;
 }
 
 std::optional<std::string> lease_fault_of(const Result& result, const Lease& lease, const Job& job) {
@@ -18,13 +18,6 @@ std::optional<std::string> lease_fault_of(const Result& result, const Lease& lea
     return "its lease is for tile " + std::to_string(lease.work.tile) + " of " +
            title_of(job, *frame_of(job, lease.frame));
   return fault_of(result.images, size_of(job.spec.settings), lease.work);
-}
-
-PassSet passes_in(const std::vector<PassImage>& images) {
-  PassSet passes = 0;
-  for (const PassImage& image : images)
-    if (image.pass >= 0 && image.pass < pass_count) passes |= static_cast<PassSet>(1u << image.pass);
-  return passes;
 }
 
 RayCounters counters_of(const std::vector<PassImage>& images) {
@@ -42,14 +35,16 @@ std::string seconds(FarmTime time) {
 }  // namespace
 
 void Farm::receive(WorkerId id, Result result, FarmTime now) {
-  Worker& worker = state_->workers.at(id);
+  Worker* const here = state_->worker_here(id);
+  if (!here) return;
+  Worker& worker = *here;
   worker.has_spoken = true;
-  if (!worker.leases.contains(result.lease)) return state_->compare_late(worker, result);
+  if (!worker.leases.contains(result.lease)) return state_->receive_late(worker, std::move(result), now);
 
   const Lease lease = worker.leases.at(result.lease);
   if (const auto fault = lease_fault_of(result, lease, state_->jobs.at(lease.job))) {
     state_->end_lease(worker, result.lease, now);
-    tell_off(result, *fault);
+    state_->denounce(worker, words_for(result, *fault), now);
   }
   const LeaseId leased_as = result.lease;
   take_lease(worker, leased_as, now);
@@ -104,22 +99,30 @@ void Farm::State::finish(Job& job, JobFrame& frame, FarmTime now) {
   end(job, JobState::done, now);
 }
 
-void Farm::State::compare_late(Worker& worker, const Result& result) {
-  if (static_cast<std::uint64_t>(result.lease) > last_lease) tell_off(result, "no such lease was given");
-  if (static_cast<std::uint64_t>(result.job) > last_job) tell_off(result, "there never was such a job");
-  const auto found = jobs.find(result.job);
-  if (found == jobs.end()) return;  // there is nothing left to compare it with
-  const Job& job = found->second;
-  const JobFrame* frame = frame_of(job, result.frame);
-  if (!frame) tell_off(result, "there never was such a frame");
-  if (!frame->canvas && frame->ended) return;  // nor here
-  if (!frame->canvas) tell_off(result, "nothing of that frame was given");
-  if (!frame->canvas->film) return;  // not worth the reading
-  const Size film = size_of(job.spec.settings);
-  if (result.tile >= tile_count(film)) tell_off(result, "the picture has no such tile");
-  if (const auto fault = fault_of(result.images, film, {result.tile, passes_in(result.images)}))
-    tell_off(result, *fault);
+void Farm::State::receive_late(Worker& worker, Result result, FarmTime now) {
+  if (worker.info.kind == WorkerKind::remote && known_workers.at(worker.identity).is_banned) return;
+  const auto called_off = worker.called_off.extract(result.lease);
+  if (called_off.empty() && result.lease <= worker.forgotten) return;
+  if (called_off.empty())
+    denounce(worker, words_for(result, "it has no such lease, or has answered it"), now);
+  Lease& lease = called_off.mapped();
+  const auto job = jobs.find(lease.job);
+  if (job == jobs.end()) return;  // there is nothing left to compare it with
+  if (const auto fault = lease_fault_of(result, lease, job->second))
+    denounce(worker, words_for(result, *fault), now);
+  const std::optional<TrialId> trial = unheard_trial(worker, lease);
+  if (!trial) return compare_late(worker, lease, result);
+  lease.work.passes = trial->passes;
+  lease.samples = pixels_in(lease.work, job->second.spec.settings) * job->second.spec.settings.spp;
+  std::erase_if(result.images, [&](const PassImage& image) { return !(trial->passes >> image.pass & 1); });
+  hear(worker, lease, trials.at(*trial).wanted, std::move(result), now);
+  fill_all(now);
+}
 
+void Farm::State::compare_late(Worker& worker, const Lease& lease, const Result& result) {
+  const Job& job = jobs.at(lease.job);
+  const JobFrame* frame = frame_of(job, lease.frame);
+  if (!frame->canvas || !frame->canvas->film) return;  // it is gone, or not worth the reading
   const std::optional<NameId> other = contradicted(*frame->canvas, result.tile, result.images);
   if (!other || worker.was_contradicted) return;
   worker.was_contradicted = true;  // one line for each connection: a broken machine must not flood the log
@@ -129,7 +132,9 @@ void Farm::State::compare_late(Worker& worker, const Result& result) {
 }
 
 void Farm::receive(WorkerId id, GiveBack given, FarmTime now) {
-  Worker& worker = state_->workers.at(id);
+  Worker* const here = state_->worker_here(id);
+  if (!here) return;
+  Worker& worker = *here;
   std::map<JobId, std::size_t> tiles;
   for (const LeaseId lease : given.leases) {
     const auto held = worker.leases.find(lease);

@@ -64,10 +64,8 @@ void Schedule::give_back(const Work& work) {
 }
 
 void Schedule::set_done(const Work& work) {
-  assert((waiting_[work.tile] & work.passes) == work.passes);
-  waiting_[work.tile] &= ~work.passes;
-  waiting_count_ -= std::popcount(work.passes);
-  done_[work.tile] |= work.passes;
+  take(work);
+  finish(work);
 }
 
 void Schedule::undo(const Work& work) {

@@ -320,6 +320,7 @@ void Sessions::admit(Session& session, const Hello& hello) {
     if (const auto* refused = std::get_if<Refused>(&message)) return refuse(session, refused->reason);
     if (auto* welcome = std::get_if<Welcome>(&message)) welcome->versions = versions;
     session.connection.post(message);
+    if (std::holds_alternative<Goodbye>(message)) session.connection.finish();
   };
   session.worker = farm_.apply([&](Farm& farm, FarmTime now) { return farm.add_worker(info, send, now); });
 }

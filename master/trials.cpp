@@ -22,13 +22,16 @@ TrialId trial_of(const Lease& lease) {
 }
 
 /// The worker has said nothing about it yet, and is not about to.
-bool may_judge(const Worker& worker, const TrialId& id, const Trial& trial) {
-  if (!may_work(worker) || refuses(worker, id.frame.job)) return false;
+bool is_unheard(const Worker& worker, const Trial& trial) {
   const std::uint64_t process = worker.info.process;
   const auto is_its = [&](const Opinion& o) {
     return o.identity == worker.identity || (process != 0 && o.process == process);
   };
   return std::ranges::none_of(trial.opinions, is_its) && std::ranges::count(trial.asked, worker.id) == 0;
+}
+
+bool may_judge(const Worker& worker, const TrialId& id, const Trial& trial) {
+  return may_work(worker) && !refuses(worker, id.frame.job) && is_unheard(worker, trial);
 }
 
 }  // namespace
@@ -43,6 +46,15 @@ std::uint32_t Farm::State::opinions_wanted_on(const Worker& worker, LeaseId id, 
 
 bool Farm::State::may_judge_now(const Worker& worker, const TrialId& id) const {
   return jobs.at(id.frame.job).state == JobState::running && may_judge(worker, id, trials.at(id));
+}
+
+std::optional<TrialId> Farm::State::unheard_trial(const Worker& worker, const Lease& lease) const {
+  const FrameId frame{lease.job, lease.frame};
+  for (auto trial = trials.lower_bound({frame, lease.work.tile, 0});
+       trial != trials.end() && trial->first.frame == frame && trial->first.tile == lease.work.tile; ++trial)
+    if ((trial->first.passes & ~lease.work.passes) == 0 && is_unheard(worker, trial->second))
+      return trial->first;
+  return std::nullopt;
 }
 
 int Farm::State::priority_of(const TrialId& id) const { return jobs.at(id.frame.job).spec.priority; }
@@ -124,7 +136,7 @@ void Farm::State::end_trial(const TrialId& id, FarmTime now) {
     const auto lease = std::ranges::find_if(
         worker.leases, [&](const auto& held) { return held.second.is_check && trial_of(held.second) == id; });
     const LeaseId revoked = lease->first;
-    take_lease(worker, revoked, now);
+    call_off(worker, revoked, now);
     worker.send(Revoke{{revoked}});
   }
 }
@@ -139,13 +151,11 @@ void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime no
   touch(job);
   std::vector<const Opinion*> lies;
   for (const Opinion& opinion : opinions) {
-    const auto found = known_workers.find(opinion.identity);
-    if (opinion.is_final || found == known_workers.end()) continue;
-    Trust& known = found->second.trust;
+    if (opinion.is_final) continue;
     if (agree(opinion, opinions[right])) {
-      ++known.good_in_a_row;
+      ++known_workers.at(opinion.identity).trust.good_in_a_row;
+      record_known(opinion.identity);
     } else {
-      known.good_in_a_row = 0, ++known.mismatches;
       const std::string& name = names[static_cast<std::size_t>(opinion.by)];
       warn("worker " + name + " delivered wrong pixels for tile " + std::to_string(id.tile) + " of " +
                title_of(job, frame) + ": " + names[static_cast<std::size_t>(opinions[right].by)] +
@@ -153,16 +163,18 @@ void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime no
            name);
       lies.push_back(&opinion);
     }
-    record_known(opinion.identity);
   }
-  for (const Opinion* lie : lies) disbelieve(*lie, now);  // first: this commit may be the job's last
+  for (const Opinion* lie : lies)
+    disbelieve(lie->identity, lie->by, now);  // first: this commit may be the job's last
   Opinion& believed = opinions[right];
   accept(job, frame, {id.tile, id.passes}, std::move(believed.images), believed.by, believed.taken, now);
 }
 
-void Farm::State::disbelieve(const Opinion& lie, FarmTime now) {
-  const KnownWorker& liar = known_workers.at(lie.identity);
-  const std::string& name = names[static_cast<std::size_t>(lie.by)];
+void Farm::State::disbelieve(const std::string& identity, NameId its_name, FarmTime now) {
+  KnownWorker& liar = known_workers.at(identity);
+  liar.trust.good_in_a_row = 0, ++liar.trust.mismatches;
+  record_known(identity);
+  const std::string& name = names[static_cast<std::size_t>(its_name)];
   if (const std::size_t tiles = lose_all_of(liar, now); tiles > 0)
     tell(count_of_tiles(tiles) + " that worker " + name +
              " delivered for unfinished jobs are rendered again, as it was wrong elsewhere",
@@ -170,6 +182,13 @@ void Farm::State::disbelieve(const Opinion& lie, FarmTime now) {
   if (liar.trust.mismatches < most_mismatches) return;
   ban(names[static_cast<std::size_t>(liar.names.back())], now);
   warn("worker " + name + " was wrong " + std::to_string(most_mismatches) + " times and is banned", name);
+}
+
+void Farm::State::denounce(Worker& worker, const std::string& lie, FarmTime now) {
+  worker.was_caught = true;
+  warn("worker " + worker.info.name + " broke the rules: " + lie, worker.info.name);
+  if (worker.info.kind == WorkerKind::remote) disbelieve(worker.identity, worker.name, now);
+  throw WorkerError(lie);
 }
 
 void Farm::State::strike_opinions(const std::string& identity, FarmTime now) {

@@ -106,6 +106,16 @@ Lease take_lease(Worker& worker, LeaseId id, FarmTime now) {
   return lease;
 }
 
+Lease call_off(Worker& worker, LeaseId id, FarmTime now) {
+  const Lease lease = take_lease(worker, id, now);
+  worker.called_off[id] = lease;
+  if (worker.called_off.size() > most_leases) {
+    worker.forgotten = worker.called_off.begin()->first;
+    worker.called_off.erase(worker.called_off.begin());
+  }
+  return lease;
+}
+
 FarmTime believed_time(const Lease& lease, double seconds, FarmTime now) {
   const double longest = std::chrono::duration<double>(now - lease.given).count();
   const double believed = seconds > 0 ? std::min(seconds, longest) : 0;  // not of a NaN, either

@@ -41,6 +41,7 @@ struct Worker {
   bool is_drained = false;
   bool is_stopping = false;  // said so itself
   bool was_contradicted = false;
+  bool was_caught = false;  // it lied: what is lost with it is not its work's fault
   bool has_spoken = false;  // work was handed in, or held work was told of
 
   /// What is known of the worker and a job that it had work of.
@@ -53,8 +54,10 @@ struct Worker {
       frames;                    // that it was told of and not yet told the end of: their scenes' hashes
   std::set<std::string> assets;  // hashes of those that it was sent and not told to forget
 
-  std::map<LeaseId, Lease> leases;  // held now
-  std::uint64_t samples_held = 0;   // sum over leases
+  std::map<LeaseId, Lease> leases;      // held now
+  std::uint64_t samples_held = 0;       // sum over leases
+  std::map<LeaseId, Lease> called_off;  // the last that ended without an answer: one may be on its way
+  LeaseId forgotten{};                  // of its leases up to this one nothing more is known
 
   Speed speed, tracing;  // over all jobs
   std::uint64_t tiles = 0, pixels = 0;
@@ -79,8 +82,10 @@ void forget(Worker& worker, FrameId frame);
 /// Lets the assets be forgotten that are none of these.
 void forget_assets(Worker& worker, const std::set<std::string>& needed);
 void assign(Worker& worker, LeaseId id, Lease lease);
-/// Takes a lease that the worker holds away from it, silently.
+/// Takes a lease that the worker holds away from it, silently: it has answered.
 Lease take_lease(Worker& worker, LeaseId id, FarmTime now);
+/// The same, without an answer.
+Lease call_off(Worker& worker, LeaseId id, FarmTime now);
 /// Of the seconds that a worker says its thread took: no thread works longer than its lease is old.
 FarmTime believed_time(const Lease& lease, double seconds, FarmTime now);
 /// What a delivery says about the worker's speed.

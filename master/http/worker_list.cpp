@@ -34,6 +34,7 @@ json to_json(const WorkerList& list, FarmTime now) {
   for (const WorkerView& worker : list.here) {
     if (is_banned(worker.info.name)) continue;  // it is about to go
     json& shown = workers.emplace_back(to_json(worker, now));
+    if (worker.trust.mismatches > 0) shown["message"] = "it was wrong once; the second time it is banned";
     const auto dialled = std::ranges::find(list.dialled, worker.info.name, &Dialling::name);
     if (dialled != list.dialled.end())  // it came by itself meanwhile: still one row a name
       shown["message"] = "also dialled, at " + dialled->address + ": " + dialled->message;

@@ -66,6 +66,18 @@ TEST(Farm, ABannedWorkerDoesNotReturnWhileItsOldConnectionIsThere) {
   EXPECT_TRUE(farm.objection_to("pc"));
 }
 
+TEST(Farm, AWorkerThatWouldBeOneTooManyIsNotLetIn) {
+  Farm farm({.worker_names = 2});
+  WorkerInfo info = remote("a");
+  info.certificate = "c0";
+  FakeWorker a(farm, info), b(farm, remote("b"));
+  EXPECT_NE(farm.objection_to("c").value_or("").find("--name"), std::string::npos);
+  EXPECT_TRUE(farm.objection_to("c", "c0"));
+  EXPECT_TRUE(farm.objection_to("a", "c0")) << "it would be a-2";
+  farm.remove_worker(a.id(), "gone", 1s);
+  EXPECT_FALSE(farm.objection_to("a", "c0"));
+}
+
 TEST(Farm, NobodyBansWhoNeverWasThereNorTheMastersOwnThreads) {
   Farm farm;
   WorkerInfo own = remote("master");

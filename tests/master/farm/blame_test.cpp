@@ -49,6 +49,16 @@ TEST_F(Blame, WorkersThatComeBackAliveHaveOnlyLostTheNetwork) {
   EXPECT_EQ(state(), JobState::running);
 }
 
+TEST_F(Blame, OneWorkerThatTakesAnotherNameEachTimeIsOne) {
+  for (int i = 0; i < 20; ++i) {
+    const WorkerInfo info{
+        .name = "pc" + std::to_string(i), .threads = 1, .process = 100u + i, .certificate = "c0"};
+    const FakeWorker worker(farm_, info);
+    farm_.remove_worker(worker.id(), "connection reset", 1s);
+  }
+  EXPECT_EQ(state(), JobState::running);
+}
+
 TEST_F(Blame, AWorkerThatIsHereOnAnotherConnectionIsAlive) {
   const FakeWorker here(farm_, {.name = "pc", .threads = 1, .process = 7});
   for (int i = 0; i < 20; ++i) join_and_be_lost(i, 7);

@@ -93,7 +93,9 @@ class Chaos {
     if (workers_.size() >= 8) return;
     const auto kind = chance(3) == 0 ? WorkerKind::local : WorkerKind::remote;
     const auto threads = static_cast<std::uint32_t>(1 + chance(4));
-    workers_.emplace_back(*farm_, WorkerInfo{.name = "pc", .threads = threads, .kind = kind}, now_);
+    const std::string name =
+        "pc" + std::to_string(names_++);  // who lied twice does not come again by the same
+    workers_.emplace_back(*farm_, WorkerInfo{.name = name, .threads = threads, .kind = kind}, now_);
   }
 
   void leave(std::size_t who) {
@@ -181,10 +183,17 @@ class Chaos {
   /// A result for a lease that was once somebody's: revoked, already answered, or still held by another.
   void answer_late() {
     if (workers_.empty() || once_held_.empty()) return;
-    const Assignment& old = once_held_[chance(once_held_.size())];
-    const FakeWorker& worker = workers_[chance(workers_.size())];
-    if (std::ranges::count(worker.held(), old.lease, &Assignment::lease) != 0) return;
-    farm_->receive(worker.id(), rendered(old, sizes_.at(old.job)), now_);
+    const auto& [holder, old] = once_held_[chance(once_held_.size())];
+    const auto its = std::ranges::find(workers_, holder, &FakeWorker::id);
+    if (its == workers_.end() && chance(8) != 0) return;
+    const std::size_t who =
+        its == workers_.end() ? chance(workers_.size()) : static_cast<std::size_t>(its - workers_.begin());
+    if (std::ranges::count(workers_[who].held(), old.lease, &Assignment::lease) != 0) return;
+    try {
+      farm_->receive(workers_[who].id(), rendered(old, sizes_.at(old.job)), now_);
+    } catch (const WorkerError&) {
+      leave(who);
+    }
   }
 
   void lie() {
@@ -225,7 +234,7 @@ class Chaos {
   void work() {
     const std::size_t who = worker_with_work();
     if (who == workers_.size()) return;
-    once_held_.push_back(workers_[who].held()[0]);
+    once_held_.emplace_back(workers_[who].id(), workers_[who].held()[0]);
     workers_[who].finish_one(now_, 0.001 * static_cast<double>(chance(30)));
   }
 
@@ -237,7 +246,7 @@ class Chaos {
   }
 
   void remember(const FakeWorker& worker) {
-    once_held_.insert(once_held_.end(), worker.held().begin(), worker.held().end());
+    for (const Assignment& work : worker.held()) once_held_.emplace_back(worker.id(), work);
   }
 
   /// What the workers were told they hold is what the farm says they hold; no pass is leased to more than two
@@ -285,7 +294,8 @@ class Chaos {
   std::map<JobId, std::vector<std::uint32_t>> to_come_;  // frames whose scenes have not come
   std::set<JobId> cancelled_;
   std::set<std::pair<WorkerId, JobId>> refused_;
-  std::vector<Assignment> once_held_;
+  std::vector<std::pair<WorkerId, Assignment>> once_held_;
+  int names_ = 0;
 };
 
 TEST(Farm, CommitsEachPassOfEachTileExactlyOnceWhateverHappens) {

@@ -137,6 +137,41 @@ TEST(Reattach, AfterTheNetworkWasCutAWorkerGoesOnToo) {
   EXPECT_EQ(farm.job(job, 4s)->counters, made_up_counters(ten_tiles));
 }
 
+// A worker notices a cut at once, the master after 2 s of silence: it had become "pc-2" meanwhile.
+TEST(Reattach, AWorkerThatIsBackBeforeItsOldConnectionIsNoticedDeadIsTheSame) {
+  Farm farm;
+  WorkerInfo info = remote("pc");
+  info.process = 7, info.certificate = "c0";
+  FakeWorker cut(farm, info);
+  const JobId job = farm.submit(job_of(ten_tiles), 0s);
+  const std::vector<Assignment> held = cut.held();
+  FakeWorker again(farm, info, 1s);
+  EXPECT_EQ(again.name(), "pc");
+  EXPECT_EQ(farm.workers().size(), 1u);
+  ASSERT_FALSE(cut.take_messages().empty());
+  EXPECT_EQ(again.held().at(0).tile, held.at(0).tile) << "it is likely to have that at hand";
+  farm.receive(again.id(), Holds{{{held[1], true}}}, 1s);
+  const Result from_the_grave = rendered(held[0], ten_tiles);
+  farm.receive(cut.id(), from_the_grave, 1s);
+  farm.receive(cut.id(), GiveBack{{held[0].lease}, "out of memory"}, 1s);
+  farm.remove_worker(cut.id(), "it was silent", 2s);
+  EXPECT_EQ(farm.workers().size(), 1u);
+  while (!again.held().empty()) again.finish_one(4s);
+  EXPECT_EQ(farm.job(job, 4s)->counters, made_up_counters(ten_tiles));
+  EXPECT_EQ(farm.film(job)->rgb(), made_up_picture(job, ten_tiles));
+}
+
+TEST(Reattach, TwoProgramsOfOneCertificateAreTwo) {
+  Farm farm;
+  WorkerInfo info = remote("pc");
+  info.certificate = "c0";
+  for (const std::uint64_t process : {0u, 0u, 7u, 8u}) {
+    info.process = process;
+    const FakeWorker worker(farm, info);
+  }
+  EXPECT_EQ(farm.workers().size(), 4u);
+}
+
 TEST(Reattach, WhatWasRenderedBeforeTeachesNoSpeed) {
   for (const bool is_copy : {false, true}) {
     DeadMaster dead;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace rayfarm {
 namespace {
 
@@ -72,11 +74,30 @@ void expect_same_picture(const Farm& before, const Farm& after, FrameId id) {
 
 }  // namespace
 
+namespace {
+
+/// Those of the frame that were not lost later, as the journal keeps them.
+std::vector<const TileCommitted*> commits_of(FrameId frame, const std::vector<FarmRecord>& records) {
+  std::vector<const TileCommitted*> commits;
+  for (const FarmRecord& record : records) {
+    if (const auto* commit = std::get_if<TileCommitted>(&record.fact))
+      if (commit->frame == frame) commits.push_back(commit);
+    if (const auto* lost = std::get_if<PassesLost>(&record.fact))
+      if (lost->frame == frame)
+        std::erase_if(commits, [&](const TileCommitted* commit) {
+          return std::ranges::any_of(lost->lost, [&](const Work& work) {
+            return work.tile == commit->tile && (work.passes & commit->passes);
+          });
+        });
+  }
+  return commits;
+}
+
+}  // namespace
+
 FarmPast past_of(const std::vector<FarmRecord>& records) {
   return {records, 1, [&records](FrameId frame, const std::function<void(const TileCommitted&)>& put) {
-            for (const FarmRecord& record : records)
-              if (const auto* commit = std::get_if<TileCommitted>(&record.fact))
-                if (commit->frame == frame) put(*commit);
+            for (const TileCommitted* commit : commits_of(frame, records)) put(*commit);
           }};
 }
 

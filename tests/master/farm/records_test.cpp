@@ -57,14 +57,14 @@ TEST(FarmBuiltAgain, GoesOnRecordingWhereItEnded) {
 
 TEST(FarmBuiltAgain, NumbersItsLeasesInAnotherWay) {
   TwoLives lives(2);
-  FakeWorker pc(lives.again(), {.name = "pc"}, 3s);
+  FakeWorker pc(lives.again(), {.name = "another"}, 3s);
   ASSERT_FALSE(pc.held().empty());
   const Assignment given = pc.held().front();
   EXPECT_GT(given.lease, LeaseId{1u << 31});
   // One of the last life does for none of this one.
   Result late = rendered(given, four_tiles);
   late.lease = LeaseId{3};
-  lives.second->receive(pc.id(), late, 4s);
+  EXPECT_THROW(lives.second->receive(pc.id(), late, 4s), WorkerError);
   EXPECT_EQ(lives.second->job(lives.job, 4s)->pixels_done, 2 * 64u * 64u);
 }
 

@@ -113,6 +113,18 @@ void check_partition_under_chance(Size film, unsigned seed) {
   EXPECT_TRUE(std::ranges::all_of(done, [](PassSet passes) { return passes == all_passes; }));
 }
 
+// A farm that was built again from a commit, its loss and another commit had given the tile out once more, and died.
+TEST(Schedule, WhatWasLostAndDoneAgainWaitsNoMore) {
+  Schedule schedule({128, 64});
+  const Work work{0, all_passes};
+  schedule.set_done(work);
+  schedule.undo(work);
+  schedule.set_done(work);
+  EXPECT_EQ(schedule.take_tile()->tile, 1u);
+  EXPECT_FALSE(schedule.take_tile());
+  EXPECT_FALSE(schedule.take_pass());
+}
+
 TEST(Schedule, EachPassOfEachTileIsWaitingLeasedOrDoneWhateverHappens) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     check_partition_under_chance({300, 200}, seed);

@@ -100,14 +100,15 @@ TEST(Verification, PixelsThatAreNoNumbersAreALieInThemselves) {
   }
 }
 
-TEST(Verification, AReplayedLeaseChangesNothing) {
+TEST(Verification, AReplayedLeaseIsALie) {
   Farm farm;
   FakeWorker a(farm, remote("a")), b(farm, remote("b"));
   const JobId job = farm.submit(verified(Quorum{2}), 0s);
   Result replayed = rendered(a.held()[0], forty_tiles);
   deliver_one(farm, a, 1s);
-  for (int i = 0; i < 5; ++i) farm.receive(a.id(), replayed, 1s);
+  EXPECT_THROW(farm.receive(a.id(), replayed, 1s), WorkerError);
   EXPECT_EQ(farm.film(job)->pixels_done(), 0u) << "a worker has one opinion";
+  EXPECT_EQ(farm.trust_in("a").mismatches, 1u);
 }
 
 TEST(Verification, OfThreeTheTwoWhoAgreeAreRight) {

@@ -139,6 +139,24 @@ TEST(Sessions, GiveATileToTheNextWhenAWorkerIsSilent) {
   EXPECT_EQ(next.next_assignment().tile, tile);
 }
 
+// A worker notices a cut at once, its master only by the silence: here after a minute.
+TEST(Sessions, TakeAWorkerInAgainWhoseOldConnectionIsNotNoticedDead) {
+  MasterThread master;
+  Hello hello = hello_from("pc");
+  hello.process = 7;
+  Peer cut(master);
+  cut.send(hello);
+  EXPECT_EQ(cut.receive_a<Welcome>().name, "pc");
+  Peer again(master);
+  again.send(hello);
+  EXPECT_EQ(again.receive_a<Welcome>().name, "pc");
+  cut.receive_a<Goodbye>();
+  cut.send(GiveBack{{LeaseId{1}}, "from the grave"});
+  cut.wait_for_end();
+  master.wait_for_workers(1);
+  Guest other(master, "pc-2");
+}
+
 TEST(Sessions, EndWithAWorkerThatLies) {
   MasterThread master;
   const JobId job = submit(master, one_tile);
@@ -153,7 +171,7 @@ TEST(Sessions, EndWithAWorkerThatLies) {
                               encode(ToMaster{hello_from("again")}), Bytes(100, 0xff)};
   };
   for (std::size_t i = 0; i < 5; ++i) {
-    Guest liar(master, "liar");
+    Guest liar(master, "liar" + std::to_string(i));
     liar.send_bytes(lies(liar.next_assignment())[i]);
     liar.wait_for_end();
     master.wait_for_workers(0);
