@@ -107,6 +107,7 @@ struct JobView {
   std::uint32_t frames_sent = 0;               // whose scenes have come, the first ones
   std::uint32_t frames_done = 0;               // also those whose pictures are no longer kept
   std::optional<std::uint32_t> current_frame;  // the first that is not done
+  FarmTime last_done{};                        // when a frame was done last
   std::uint64_t pixels_done = 0, pixels_total = 0;
   RayCounters counters;                // of committed passes
   FarmTime submitted{}, waited{};      // waited: from then to the first assignment, or to its end without one
@@ -129,6 +130,9 @@ struct FrameView {
   std::uint64_t pixels_done = 0, pixels_total = 0;
   RayCounters counters;
   FarmTime waited{}, elapsed{}, thread_time{};  // as of a job
+  std::optional<FarmTime> done{};               // when; another time when its pixels had to be rendered again
+  bool is_final = false;                        // the job has ended: its pixels stay as they are
+  std::uint32_t losses = 0;  // so often pixels that were there waited again, since the farm was built
 };
 
 /// Who delivered a picture's pixels, and what they took.
@@ -140,6 +144,8 @@ struct Deliveries {
   };
   std::vector<Tile> tiles;         // by tile number
   std::vector<std::string> names;  // of workers; grows at its end only
+  std::uint32_t losses = 0;        // as of its frame
+  bool is_final = false;           // the job has ended: they stay as they are
 };
 
 enum class WorkerState : std::uint8_t { idle, busy, drained };

@@ -72,6 +72,7 @@ std::optional<Deliveries> Farm::deliveries(JobId id, std::optional<std::uint32_t
   if (!frame) return std::nullopt;
   const Canvas& canvas = *frame->canvas;
   Deliveries all;
+  all.losses = frame->losses, all.is_final = has_ended(state_->jobs.at(id));
   all.tiles.reserve(canvas.deliveries.size());
   for (const Canvas::TileDeliveries& tile : canvas.deliveries)
     all.tiles.push_back(

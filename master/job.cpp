@@ -104,6 +104,7 @@ JobView view_of(const Job& job, FarmTime now) {
   view.frames_sent = static_cast<std::uint32_t>(job.frames.size());
   view.frames_done = job.frames_done;
   if (job.first_unfinished < spec.frames->count()) view.current_frame = spec.frames->at(job.first_unfinished);
+  view.last_done = job.last_done;
   view.pixels_done = job.pixels_done;
   view.pixels_total = pixels_of(spec.settings) * spec.frames->count();
   view.counters = job.counters;
@@ -122,13 +123,15 @@ FrameView view_of(const Job& job, std::uint32_t place, FarmTime now) {
   FrameView view;
   view.frame = job.spec.frames->at(place);
   view.pixels_total = pixels_of(job.spec.settings);
+  view.is_final = has_ended(job);
   view.state = job.state == JobState::running ? JobState::waiting : job.state;
   view.waited = job.ended.value_or(now) - job.submitted;
   if (place >= job.frames.size()) return view;
 
   const JobFrame& frame = job.frames[place];
   if (frame.canvas) view.state = job.state;
-  if (is_complete(job, frame)) view.state = JobState::done;
+  if (is_complete(job, frame)) view.state = JobState::done, view.done = frame.ended;
+  view.losses = frame.losses;
   view.scene_hash = frame.scene_hash;
   view.is_kept = frame.canvas.has_value();
   view.pixels_done = frame.pixels_done;
@@ -208,6 +211,7 @@ void lose(const Job& job, JobFrame& frame, const PassesLost& damage) {
     frame.pixels_done -= pixels_in(work, job.spec.settings);
   }
   frame.counters = frame.counters - damage.counters;
+  ++frame.losses;
 }
 
 double expected_rays(const Job& job, const JobFrame& frame, const Work& work) {

@@ -58,6 +58,7 @@ struct JobFrame {
   RayCounters counters;
   FarmTime thread_time{};
   std::optional<FarmTime> started, ended;
+  std::uint32_t losses = 0;  // of passes that were there
 };
 
 struct Job {
@@ -75,6 +76,7 @@ struct Job {
   Pace pace;
   FarmTime submitted{};
   std::optional<FarmTime> started, ended;
+  FarmTime last_done{};  // of a frame
   std::uint64_t tiles_given_back = 0, tiles_doubled = 0, tiles_checked = 0;
   FarmTime time_wasted{};
 };

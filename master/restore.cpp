@@ -42,7 +42,10 @@ void put_name(Canvas& canvas, const TileCommitted& commit, NameId name) {
 /// The sums over its frames.
 void add_up(Job& job) {
   for (const JobFrame& frame : job.frames) {
-    if (is_complete(job, frame)) ++job.frames_done;
+    if (is_complete(job, frame)) {
+      ++job.frames_done;
+      job.last_done = std::max(job.last_done, frame.ended.value_or(FarmTime{}));
+    }
     if (!frame.canvas && frame.started) ++job.frames_dropped;
     job.pixels_done += frame.pixels_done;
     job.counters += frame.counters;

@@ -92,6 +92,7 @@ void Farm::State::accept(Job& job, JobFrame& frame, const Work& work, std::vecto
 void Farm::State::finish(Job& job, JobFrame& frame, FarmTime now) {
   end(job, frame, now);
   ++job.frames_done;
+  job.last_done = now;
   while (job.first_unfinished < job.frames.size() && job.frames[job.first_unfinished].ended)
     ++job.first_unfinished;
   if (job.frames_done < job.spec.frames->count()) return drop_old_films();

@@ -32,23 +32,30 @@ void write_job_picture(const std::string& file, const json& job, const json& fra
 }
 
 void FrameWriter::write_done(const json& job) {
-  if (job.at("frames").at("done") == written_.size()) return;
+  const json& version = job.at("frames").at("version");
+  if (version == seen_ && job.at("frames").at("done") == written_.size()) return;
+  seen_ = version;
   const JobNumber id = job.at("id");
   for (const json& frame : frames_of(id)) {
     const std::uint32_t number = frame.at("frame");
-    if (frame.at("state") != "done" || written_.contains(number)) continue;
+    if (frame.at("state") != "done") {
+      written_.erase(number);  // somebody had lied: it is rendered again
+      continue;
+    }
+    const auto written = written_.find(number);
+    if (written != written_.end() && written->second == frame.at("version")) continue;
     if (!frame.at("is_kept").get<bool>())
       throw CommandError(ExitCode::failed, "the master no longer keeps the picture of frame " +
                                                std::to_string(number) + " of job " + std::to_string(id) +
                                                "; render it again with --frame " + std::to_string(number));
     write_job_picture(frame_file(file_, number), job, frame, fetch_film(id, number), curve_);
-    written_.insert(number);
+    written_[number] = frame.at("version");
   }
 }
 
 std::vector<std::string> FrameWriter::files() const {
   std::vector<std::string> files;
-  for (const std::uint32_t frame : written_) files.push_back(frame_file(file_, frame));
+  for (const auto& [frame, version] : written_) files.push_back(frame_file(file_, frame));
   return files;
 }
 

@@ -1,7 +1,7 @@
 // A job's pictures, from the master to files on this PC.
 #pragma once
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -24,13 +24,13 @@ Film fetch_film(JobNumber job, std::uint32_t frame);
 void write_job_picture(const std::string& file, const nlohmann::json& job, const nlohmann::json& frame,
                        const Film& film, PngCurve curve);
 
-/// Writes pictures of a job as its frames are done.
+/// Writes pictures of a job as its frames are done, and once more when they had to be rendered again.
 class FrameWriter {
  public:
   /// The file has a place for the frame's number, unless the job has one frame.
   FrameWriter(std::string file, PngCurve curve) : file_(std::move(file)), curve_(curve) {}
 
-  /// Those that are done and not yet written. Throws CommandError when the master no longer keeps one.
+  /// Those that are done and not yet written as they are. Throws CommandError when the master no longer keeps one.
   void write_done(const nlohmann::json& job);
   /// Written so far.
   std::vector<std::string> files() const;
@@ -38,7 +38,8 @@ class FrameWriter {
  private:
   std::string file_;
   PngCurve curve_;
-  std::set<std::uint32_t> written_;
+  std::map<std::uint32_t, nlohmann::json> written_;  // their pictures' versions
+  nlohmann::json seen_;                              // the version of all
 };
 
 }  // namespace rayfarm

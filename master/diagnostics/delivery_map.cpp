@@ -57,6 +57,7 @@ LayerNews delivery_news(const Deliveries& deliveries, Size size, const MapKind& 
                         std::uint32_t most_tiles) {
   LayerNews news;
   news.state.size = size;
+  news.losses = deliveries.losses, news.is_final = deliveries.is_final;
   if (kind.source == MapSource::farm) news.state.labels = deliveries.names;
   std::vector<PassSet> done;
   std::uint64_t pixels_done = 0;

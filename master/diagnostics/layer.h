@@ -33,6 +33,8 @@ struct TileNews {
 struct LayerNews {
   LayerState state;
   std::vector<TileNews> tiles;
+  std::uint32_t losses = 0;  // so often passes were taken back: what was told before of any tile may be wrong
+  bool is_final = true;      // none will be taken back
 };
 
 /// How it stands, and at most so many of the tiles that have more passes than `known` says, by tile number

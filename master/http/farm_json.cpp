@@ -11,6 +11,11 @@ using nlohmann::json;
 
 double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).count(); }
 
+/// Another one each time that a picture was done: what JavaScript's numbers hold exactly.
+std::int64_t version_of(FarmTime done) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(done).count();
+}
+
 }  // namespace
 
 json to_json(const JobView& job, FarmTime now) {
@@ -30,7 +35,8 @@ json to_json(const JobView& job, FarmTime now) {
             {"total", job.frames.count()},
             {"sent", job.frames_sent},
             {"done", job.frames_done},
-            {"current", job.current_frame ? json(*job.current_frame) : json()}}},
+            {"current", job.current_frame ? json(*job.current_frame) : json()},
+            {"version", version_of(job.last_done)}}},
           {"pixels_done", job.pixels_done},
           {"pixels_total", job.pixels_total},
           {"counters", to_json(job.counters)},
@@ -48,6 +54,7 @@ json to_json(const FrameView& frame) {
   return {{"frame", frame.frame},
           {"state", name_of(frame.state)},
           {"is_kept", frame.is_kept},
+          {"version", frame.done ? json(version_of(*frame.done)) : json()},
           {"scene_hash", frame.scene_hash},
           {"pixels_done", frame.pixels_done},
           {"pixels_total", frame.pixels_total},

@@ -1,6 +1,7 @@
 #include "master/http/live/layer_feed.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "master/http/farm_door.h"
 
@@ -27,9 +28,18 @@ LayerNews LayerPoller::look(std::uint32_t most_tiles) {
     const LayerState state = source_({}, 0).state;
     sent_.size = state.size, sent_.channels = state.channels;
     sent_.step = step_for(state.size);
-    known_.assign(tile_count(state.size), static_cast<PassSet>(all_passes & ~passes_sent(sent_.step)));
+    forget_all();
   }
-  return source_(known_, most_tiles);
+  LayerNews seen = source_(known_, most_tiles);
+  if (std::exchange(losses_, seen.losses) == seen.losses) return seen;
+  forget_all();  // all are told again: it is rare
+  seen = source_(known_, most_tiles);
+  losses_ = seen.losses;
+  return seen;
+}
+
+void LayerPoller::forget_all() {
+  known_.assign(tile_count(sent_.size), static_cast<PassSet>(all_passes & ~passes_sent(sent_.step)));
 }
 
 FeedNews LayerPoller::poll(std::uint32_t most_tiles) {
@@ -43,7 +53,7 @@ FeedNews LayerPoller::poll(std::uint32_t most_tiles) {
     seen.state.state = LayerProgress::failed;
     seen.state.message = error.what();
   }
-  FeedNews news{{}, sent_.step, {}, seen.tiles.size() < most_tiles};
+  FeedNews news{{}, sent_.step, {}, seen.tiles.size() < most_tiles, seen.is_final};
   for (const TileNews& tile : seen.tiles) {
     known_.at(tile.tile) |= tile.passes;
     if (SharedMessage message = tile_message(sent_, tile))
@@ -60,7 +70,7 @@ void LayerFeed::take(FeedNews news) {
     state_ = std::move(news.state);
     ++state_version_;
   }
-  is_over_ = news.is_all && state_ && state_->state == LayerProgress::done;
+  is_over_ = news.is_all && news.is_final && state_ && state_->state == LayerProgress::done;
   for (NewTile& tile : news.tiles) {
     std::uint64_t& place = place_of_[tile.tile];
     if (const auto old = messages_.find(place); old != messages_.end()) {

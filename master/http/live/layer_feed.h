@@ -30,7 +30,8 @@ struct FeedNews {
   std::optional<LayerState> state;  // when it is another one
   std::uint32_t step = 1;
   std::vector<NewTile> tiles;
-  bool is_all = true;  // there was no more to tell
+  bool is_all = true;    // there was no more to tell
+  bool is_final = true;  // what was told stays
 };
 
 /// How much of a layer is sent: pictures with a side over 8192 or of more than 32 megapixels are thinned.
@@ -46,10 +47,12 @@ class LayerPoller {
 
  private:
   LayerNews look(std::uint32_t most_tiles);
+  void forget_all();
 
   LayerSource source_;
   SentLayer sent_;
   std::vector<PassSet> known_;  // passes that are not sent count as known
+  std::uint32_t losses_ = 0;    // of passes that were known
   std::optional<LayerState> state_;
 };
 

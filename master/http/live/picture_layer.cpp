@@ -54,7 +54,7 @@ class PictureLayer {
 
   LayerNews operator()(const std::vector<PassSet>& known, std::uint32_t most_tiles) {
     if (!complete_) return news_from_farm(known, most_tiles);
-    return {state_, new_tiles(*complete_, *order_, known, most_tiles)};
+    return {state_, new_tiles(*complete_, *order_, known, most_tiles), losses_, true};
   }
 
  private:
@@ -67,14 +67,15 @@ class PictureLayer {
     Look look =
         farm_->ask([id = id_, number = frame_, order = order_, known, most_tiles](Farm& farm, FarmTime now) {
           const std::shared_ptr<const Film> film = film_so_far(farm, id, number, now);
-          Look seen{{state_of(*farm.job(id, now), frame_view(farm, id, number, now)), {}},
-                    film && film->is_complete() ? film : nullptr};
+          const FrameView frame = frame_view(farm, id, number, now);
+          Look seen{{state_of(*farm.job(id, now), frame), {}, frame.losses, frame.is_final},
+                    frame.is_final && film && film->is_complete() ? film : nullptr};
           if (film && order) seen.news.tiles = new_tiles(*film, *order, known, most_tiles);
           return seen;
         });
     if (!order_)
       order_ = std::make_shared<const std::vector<std::uint32_t>>(centre_first(look.news.state.size));
-    state_ = look.news.state;
+    state_ = look.news.state, losses_ = look.news.losses;
     complete_ = std::move(look.complete);
     return std::move(look.news);
   }
@@ -84,6 +85,7 @@ class PictureLayer {
   std::optional<std::uint32_t> frame_;
   std::shared_ptr<const std::vector<std::uint32_t>> order_;  // of the tiles, once the size is known
   LayerState state_;                                         // when last asked
+  std::uint32_t losses_ = 0;
   std::shared_ptr<const Film> complete_;
 };
 

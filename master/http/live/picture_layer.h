@@ -6,7 +6,7 @@
 namespace rayfarm {
 
 /// The farm's thread is asked once a call, and copies no more than the tiles that are told; not even that once
-/// the film is complete. The door must outlive the source.
+/// the job is done: before, a worker may be found to have lied. The door must outlive the source.
 LayerSource picture_layer(const FarmDoor& farm, JobId job, std::optional<std::uint32_t> frame);
 
 }  // namespace rayfarm

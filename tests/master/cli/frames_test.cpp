@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cmath>
+#include <filesystem>
+#include <future>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "master/files/image_file.h"
 #include "tests/support/child_program.h"
@@ -57,6 +61,63 @@ TEST_F(Frames, AreSummarisedAsJson) {
   EXPECT_EQ(summary["frames"][1]["settings"]["frame"], 1);
   EXPECT_EQ(summary["frames"][1]["output"], (folder / "a.01.png").string());
   EXPECT_EQ(summary["counters"]["primary"], 2 * 160 * 90 * 4);
+}
+
+/// Delivers black pixels until it breaks the rules.
+struct Liar {
+  explicit Liar(FarmThread& farm) {
+    farm.run([&](Farm& f, FarmTime now) {
+      const auto hold = [this](ToWorker message) {
+        if (const auto* work = std::get_if<Assignment>(&message)) held.push_back(*work);
+      };
+      id = f.add_worker({.name = "liar", .threads = 8}, hold, now);
+    });
+  }
+  void deliver(Farm& farm, FarmTime now, float colour, std::uint32_t last_frame) {
+    const std::vector<Assignment> all = std::exchange(held, {});
+    for (const Assignment& work : all) {
+      if (work.frame > last_frame) held.push_back(work);
+      if (work.frame > last_frame) continue;
+      Result result{work.lease, work.job, work.frame, work.tile, {}, 0.001};
+      for (int pass = 0; pass < pass_count; ++pass) {
+        const std::uint32_t pixels = pixel_count(tile_at({160, 90}, work.tile), pass);
+        result.images.push_back({pass, std::vector<float>(3 * pixels, colour), {}});
+      }
+      farm.receive(id, result, now);
+    }
+  }
+  WorkerId id{};
+  std::vector<Assignment> held;  // on the farm's thread
+};
+
+// A frame that was written once had stayed as a liar had made it.
+TEST_F(Frames, ThatALiarMadeAreWrittenAgainOnceItIsSeen) {
+  ASSERT_EQ(render("0-2", "here.#.exr").exit_code, 0);
+  FarmThread farm;
+  TestServer server(door_to(farm));
+  Liar liar(farm);
+  const Words words{"submit", folder / "turning.lua", "--frames", "0-2",
+                    "-o",     folder / "farm.#.exr",  "--wait"};
+  auto submitted = std::async(std::launch::async, [&] {
+    return rayfarm(words, {{"RAYFARM_MASTER", server.url()}});
+  });
+  while (!std::filesystem::exists(folder / "farm.1.exr"))
+    farm.run([&](Farm& f, FarmTime now) { liar.deliver(f, now, 0, 1); });
+  bool was_caught = false;
+  while (!was_caught)
+    farm.run([&](Farm& f, FarmTime now) {
+      try {
+        liar.deliver(f, now, NAN, 2);
+      } catch (const WorkerError&) {
+        f.remove_worker(liar.id, "it lied", now);
+        was_caught = true;
+      }
+    });
+  farm.add_renderer("honest");
+  const ProgramResult result = submitted.get();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* frame : {"0", "1", "2"})
+    EXPECT_EQ(content(std::string("farm.") + frame + ".exr"), content(std::string("here.") + frame + ".exr"));
 }
 
 TEST_F(Frames, ThatCannotBeAreRefusedWithWhatThereIs) {

@@ -18,13 +18,14 @@ class GrowingLayer {
   GrowingLayer(Size size, std::size_t channels) : size(size), channels(channels), done(tile_count(size)) {}
 
   float value(std::uint32_t x, std::uint32_t y, std::size_t channel) const {
-    return 0.1f + static_cast<float>(y * size.width + x) + 0.25f * static_cast<float>(channel);
+    return 0.1f + static_cast<float>(y * size.width + x) + 0.25f * static_cast<float>(channel) - lie;
   }
   LayerNews news(const std::vector<PassSet>& known, std::uint32_t most_tiles) const {
     const bool is_done = std::ranges::all_of(done, [](PassSet passes) { return passes == all_passes; });
     LayerNews all;
     all.state.size = size, all.state.channels = channels;
     all.state.state = is_done ? LayerProgress::done : LayerProgress::making;
+    all.losses = losses, all.is_final = is_final;
     for (std::uint32_t tile = 0; tile < done.size() && all.tiles.size() < most_tiles; ++tile)
       if (done[tile] & ~(known.empty() ? PassSet{0} : known[tile])) all.tiles.push_back(tile_news(tile));
     return all;
@@ -36,6 +37,9 @@ class GrowingLayer {
   const Size size;
   const std::size_t channels;
   std::vector<PassSet> done;
+  std::uint32_t losses = 0;
+  bool is_final = true;
+  float lie = 0;
 
  private:
   TileNews tile_news(std::uint32_t number) const {
@@ -115,6 +119,37 @@ TEST(LayerFeed, EveryPixelArrivesInAnyOrderOfPassesAtAnyPaceOfReading) {
     }
     EXPECT_EQ(late.tiles, static_cast<int>(tile_count(layer.size)));  // the newest of each wins
     EXPECT_LE(slow.tiles, fast.tiles);
+  }
+}
+
+// A worker is found to have lied: viewers had gone on to see its pixels.
+TEST(LayerFeed, WhatWasTakenBackIsToldAgainHoweverSoonItIsThere) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    std::mt19937 random(seed);
+    GrowingLayer layer({200, 130}, 1);
+    layer.is_final = false, layer.lie = 1;
+    LayerPoller poller(7, layer.source());
+    LayerFeed feed(7, {});
+    TestViewer viewer(layer.size, 1);
+    std::vector<Step> steps = all_steps(layer.size);
+    std::shuffle(steps.begin(), steps.end(), random);
+    const std::size_t of_the_liar = seed % 2 ? steps.size() : random() % steps.size();
+    const auto poll = [&] { feed.take(poller.poll(1 + random() % 4)); };
+    for (std::size_t i = 0; i < of_the_liar; ++i) {
+      layer.done[steps[i].tile] |= 1 << steps[i].pass;
+      poll();
+      viewer.take_one(feed);
+    }
+    for (int i = 0; i < 20; ++i) poll();
+    EXPECT_FALSE(feed.is_over());
+    std::ranges::fill(layer.done, 0);
+    ++layer.losses, layer.lie = 0;
+    if (random() % 2) poll();
+    std::ranges::fill(layer.done, all_passes);
+    layer.is_final = true;
+    while (!feed.is_over()) poll();
+    while (viewer.take_one(feed)) {}
+    expect_whole(layer, viewer.view);
   }
 }
 
