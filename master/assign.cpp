@@ -13,22 +13,24 @@ constexpr std::size_t most_victims = 5;  // workers that one tile may cost
 }  // namespace
 
 void Farm::State::update_queue(const Job& job) {
-  const std::pair place{-job.spec.priority, job.id};
   if (wants_workers(job))
-    queue.insert(place);
+    queue.insert(place_of(job));
   else
-    queue.erase(place);
+    queue.erase(place_of(job));
 }
 
 Job* Farm::State::next_job_for(const Worker& worker) {
   if (!may_work(worker)) return nullptr;
-  const auto place = std::ranges::find_if(queue, [&](const auto& p) { return !refuses(worker, p.second); });
+  const bool is_believed = worker.info.kind == WorkerKind::local;
+  const auto place = std::ranges::find_if(queue, [&](const Place& p) {
+    return !refuses(worker, p.second) && (is_believed || !waits_for_judges(p));
+  });
   return place == queue.end() ? nullptr : &jobs.at(place->second);
 }
 
 bool Farm::State::give_one(Worker& worker, FarmTime now) {
   Job* job = next_job_for(worker);
-  if (const auto trial = next_trial_for(worker)) {
+  if (const auto trial = first_for(worker, open_trials)) {
     const Job& tried = jobs.at(trial->frame.job);
     const bool is_next = job == nullptr || tried.spec.priority >= job->spec.priority;
     if (is_next && has_room_for(worker, tried.id)) return give_trial(worker, *trial, now), true;

@@ -42,7 +42,10 @@ struct Farm::State::Helper {
   std::uint32_t threads;
 };
 
-void Farm::tick(FarmTime now) { state_->double_stragglers(now); }
+void Farm::tick(FarmTime now) {
+  state_->note_overdue(now);
+  state_->double_stragglers(now);
+}
 
 bool Farm::State::is_ending(const Job& job) const {
   std::uint64_t threads = 0;

@@ -29,7 +29,7 @@ Farm::~Farm() = default;
 WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   const WorkerId id{++state_->last_worker};
   std::string identity = identity_of(info.name, info.certificate);
-  state_->end_former_connection(identity, info.process, now);
+  std::map<LeaseId, Lease> had = state_->end_former_connection(identity, info.process, now);
   info.name = state_->unique_name(info.name);
   state_->exonerate(info.process);
   std::string joined = "worker " + info.name + " joined";
@@ -43,11 +43,13 @@ WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   worker.is_drained = state_->drained_names.contains(info.name);
   worker.info = std::move(info);
   worker.identity = std::move(identity);
+  worker.called_off = std::move(had);
   state_->meet(worker);
   worker.send = std::move(send);
   worker.joined = now;
   state_->tell(worker.is_drained ? joined + "; it is drained" : joined, worker.info.name);
   worker.send(Welcome{worker.info.name});
+  ++state_->revision;         // who waits for a judge may have one
   state_->fill(worker, now);  // before the others: it may have at hand what was taken from its old connection
   state_->fill_all(now);
   return id;
@@ -69,6 +71,7 @@ void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
   const std::string identity = worker.identity;
   const Canvas::Victim lost{worker.name, worker.info.process};
   state_->workers.erase(id);
+  ++state_->revision;  // the last judge may be gone
   if (oldest) state_->blame(*oldest, identity, lost, now);
   state_->fill_all(now);
 }
@@ -218,8 +221,14 @@ bool Farm::fail(JobId id, std::string why, FarmTime now) {
 bool Farm::set_priority(JobId id, int priority, FarmTime) {
   Job* job = state_->living_job(id);
   if (job == nullptr) return false;
-  state_->queue.erase({-job->spec.priority, id});
+  const State::Place before = State::place_of(*job);
+  state_->queue.erase(before);
   job->spec.priority = priority;
+  for (State::TrialQueue* queue : {&state_->open_trials, &state_->asked_trials})
+    if (auto trials = queue->extract(before)) {
+      trials.key() = State::place_of(*job);
+      queue->insert(std::move(trials));
+    }
   state_->touch(*job);
   state_->update_queue(*job);
   return true;

@@ -41,13 +41,16 @@ struct Farm::State {
   std::map<std::string, KnownWorker> known_workers;  // by identity
   // Work on trial is leased in its frame's schedule; it is committed when it is settled.
   std::map<TrialId, Trial> trials;
-  std::set<TrialId> open_trials;  // exactly those that want more opinions
+  using Place =
+      std::pair<int, JobId>;  // of a job in a queue, the next to be served first: minus priority, id
+  using TrialQueue = std::map<Place, std::set<TrialId>>;
+  TrialQueue open_trials;   // exactly those that want more opinions
+  TrialQueue asked_trials;  // exactly those that want none, but bear one more
   std::set<std::string, std::less<>> drained_names, banned_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those that were not kept.
   std::vector<std::string> names{"(one of many)"};
   std::map<std::string, NameId> name_ids;
-  // Exactly the jobs that want workers, the next to be served first.
-  std::set<std::pair<int, JobId>> queue;  // minus priority, id
+  std::set<Place> queue;  // exactly the jobs that want workers
   std::uint64_t last_job = 0, last_worker = 0, last_lease = 0;
   FarmTime next_look = FarmTime::min();   // for work that is worth doubling
   std::set<FrameId> frames_with_victims;  // of those that are there
@@ -71,6 +74,8 @@ struct Farm::State {
     changed_jobs.insert(job.id);
   }
 
+  static Place place_of(const Job& job) { return {-job.spec.priority, job.id}; }
+  JobView view(const Job& job, FarmTime now) const;
   Job* living_job(JobId id);
   const JobFrame* frame(JobId id, std::optional<std::uint32_t> number) const;
   Worker* worker_named(std::string_view name);
@@ -113,15 +118,19 @@ struct Farm::State {
 
   // Trials.
   std::uint32_t opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const;
-  bool may_judge_now(const Worker& worker, const TrialId& id) const;
   /// Some of the work's passes are on trial, and the worker has not said yet what they are.
   std::optional<TrialId> unheard_trial(const Worker& worker, const Lease& lease) const;
-  int priority_of(const TrialId& id) const;
-  // Of the job of highest priority, then the one submitted first.
-  /// That wants an opinion.
-  std::optional<TrialId> next_trial_for(const Worker& worker) const;
+  /// Of the job of highest priority, then the one submitted first.
+  std::optional<TrialId> first_for(const Worker& worker, const TrialQueue& queue) const;
   /// Others are asked already, who may never answer.
   std::optional<TrialId> asked_trial_for(const Worker& worker) const;
+  void put_in(TrialQueue& queue, const TrialId& id, bool is_in);
+  /// So many of its tiles want opinions that no more shall: they take memory.
+  bool waits_for_judges(Place job) const;
+  /// What people should know about it; empty: nothing.
+  std::string words_for_trials(const Job& job) const;
+  /// Some were asked too long ago: others are asked.
+  void note_overdue(FarmTime now);
   void give_trial(Worker& worker, const TrialId& id, FarmTime now);
   /// To a worker without anything else to do. False: it has something, or there is none for it.
   bool give_asked_trial(Worker& worker, FarmTime now);
@@ -133,6 +142,7 @@ struct Farm::State {
   void settle_trial(const TrialId& id, std::size_t right, FarmTime now);
   /// Nobody is asked any more.
   void end_trial(const TrialId& id, FarmTime now);
+  void end_check(const Trial::Asked& asked, FarmTime now);
   void drop_trials(FrameId frame, FarmTime now);
   /// It was wrong once more: nothing stays that it delivered, and the second time it is banned.
   void disbelieve(const std::string& identity, NameId name, FarmTime now);
@@ -148,8 +158,10 @@ struct Farm::State {
   Worker* worker_here(WorkerId id);  // null: it has been removed
   /// It has come.
   void meet(const Worker& worker);
-  /// The same program is back before its old connection is known to be dead.
-  void end_former_connection(const std::string& identity, std::uint64_t process, FarmTime now);
+  /// The same program is back before its old connection is known to be dead. The leases that it had there: an answer may
+  /// be on its way.
+  std::map<LeaseId, Lease> end_former_connection(const std::string& identity, std::uint64_t process,
+                                                 FarmTime now);
   void record_known(const std::string& identity);
   /// Of the worker that has this name, or had it last; of several, when they had it one after the other.
   std::vector<std::string> identities_of(std::string_view name) const;

@@ -1,5 +1,6 @@
 // The farm as people see it.
 #include <array>
+#include <numeric>
 
 #include "master/farm_state.h"
 
@@ -18,14 +19,20 @@ std::string_view name_of(WorkerState state) { return worker_state_names.at(stati
 std::vector<JobView> Farm::jobs(FarmTime now) const {
   std::vector<JobView> views;
   views.reserve(state_->jobs.size());
-  for (const auto& [id, job] : state_->jobs) views.push_back(view_of(job, now));
+  for (const auto& [id, job] : state_->jobs) views.push_back(state_->view(job, now));
   return views;
 }
 
 std::optional<JobView> Farm::job(JobId id, FarmTime now) const {
   const auto job = state_->jobs.find(id);
   if (job == state_->jobs.end()) return std::nullopt;
-  return view_of(job->second, now);
+  return state_->view(job->second, now);
+}
+
+JobView Farm::State::view(const Job& job, FarmTime now) const {
+  JobView view = view_of(job, now);
+  if (view.message.empty()) view.message = words_for_trials(job);
+  return view;
 }
 
 std::vector<WorkerView> Farm::workers() const {
@@ -75,8 +82,8 @@ std::optional<Deliveries> Farm::deliveries(JobId id, std::optional<std::uint32_t
   all.losses = frame->losses, all.is_final = has_ended(state_->jobs.at(id));
   all.tiles.reserve(canvas.deliveries.size());
   for (const Canvas::TileDeliveries& tile : canvas.deliveries)
-    all.tiles.push_back(
-        {tile.by, tile.taken, canvas.film->passes_of(static_cast<std::uint32_t>(all.tiles.size()))});
+    all.tiles.push_back({tile.by, std::accumulate(tile.taken.begin(), tile.taken.end(), FarmTime{}),
+                         canvas.film->passes_of(static_cast<std::uint32_t>(all.tiles.size()))});
   for (const NameId name : canvas.deliverers)
     all.names.push_back(state_->names[static_cast<std::size_t>(name)]);
   return all;

@@ -1,8 +1,10 @@
 #include "master/job.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "master/farm_record.h"
 
@@ -173,7 +175,7 @@ void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
     frame.counters += image.counters;
     job.counters += image.counters;
   }
-  tile.taken += delivery.taken;
+  tile.taken[std::countr_zero(delivery.work.passes)] = delivery.taken;
   frame.thread_time += delivery.taken;
   job.thread_time += delivery.taken;
   job.pixels_done += canvas.film->pixels_done() - frame.pixels_done;
@@ -205,8 +207,12 @@ PassesLost delivered_by(JobId job, const JobFrame& frame, NameId worker) {
 
 void lose(const Job& job, JobFrame& frame, const PassesLost& damage) {
   for (const Work& work : damage.lost) {
-    for (int pass = 0; pass < pass_count; ++pass)
-      if (work.passes >> pass & 1) frame.canvas->deliveries[work.tile].counters[pass] = {};
+    Canvas::TileDeliveries& tile = frame.canvas->deliveries[work.tile];
+    for (int pass = 0; pass < pass_count; ++pass) {
+      if (!(work.passes >> pass & 1)) continue;
+      tile.counters[pass] = {};
+      frame.thread_time -= std::exchange(tile.taken[pass], FarmTime{});
+    }
     frame.canvas->schedule.undo(work);
     frame.pixels_done -= pixels_in(work, job.spec.settings);
   }

@@ -24,10 +24,10 @@ enum class NameId : std::uint32_t {};
 struct Canvas {
   explicit Canvas(Size of_film) : size(of_film), schedule(size), deliveries(tile_count(size)) {}
 
-  /// A tile's passes that are there: whom they came from, and what all of them took.
+  /// A tile's passes that are there: whom they came from, and what they took.
   struct TileDeliveries {
     std::array<std::uint32_t, pass_count> by{};  // places in `deliverers`
-    FarmTime taken{};
+    std::array<FarmTime, pass_count> taken{};    // of a commit, with its first pass
     std::array<RayCounters, pass_count>
         counters{};  // after a restart all of a commit stand with its first pass
   };

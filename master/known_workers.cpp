@@ -28,19 +28,22 @@ Worker* Farm::State::worker_here(WorkerId id) {
   return here == workers.end() ? nullptr : &here->second;
 }
 
-void Farm::State::end_former_connection(const std::string& identity, std::uint64_t process, FarmTime now) {
+std::map<LeaseId, Lease> Farm::State::end_former_connection(const std::string& identity,
+                                                            std::uint64_t process, FarmTime now) {
   const auto former = std::ranges::find_if(workers, [&](const auto& w) {
     return w.second.info.kind == WorkerKind::remote && w.second.identity == identity &&
            w.second.info.process == process;
   });
-  if (process == 0 || former == workers.end()) return;
+  if (process == 0 || former == workers.end()) return {};
   Worker& worker = former->second;
   const std::size_t given_back = end_leases(worker, now).size();
   tell("worker " + worker.info.name + " comes again while its old connection is still here; " +
            count_of_tiles(given_back) + " given back",
        worker.info.name);
   worker.send(Goodbye{"you are here on another connection"});
+  std::map<LeaseId, Lease> leases = std::move(worker.called_off);
   workers.erase(former);
+  return leases;
 }
 
 void Farm::State::record_known(const std::string& identity) {

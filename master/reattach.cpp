@@ -44,12 +44,16 @@ void Farm::receive(WorkerId id, const Holds& holds, FarmTime now) {
 bool Farm::State::reattach(Worker& worker, const HeldTile& held, FarmTime now) {
   const Assignment& work = held.work;
   Job* job = living_job(work.job);
-  if (job == nullptr || job->state != JobState::running || !may_be_given(worker, job->id)) return false;
+  // Of a job that is paused, what is rendered already: it costs nobody anything.
+  const auto is_taken = [&] {
+    return job->state == JobState::running || (job->state == JobState::paused && held.is_finished);
+  };
+  if (job == nullptr || !is_taken() || !may_be_given(worker, job->id)) return false;
   const auto place = job->spec.frames->index_of(work.frame);
   if (!place || *place >= job->frames.size()) return false;
   JobFrame& frame = job->frames[*place];
   if (!frame.canvas || frame.ended || work.tile >= frame.canvas->deliveries.size()) return false;
-  if (!read_film(*job, frame) || job->state != JobState::running) return false;
+  if (!read_film(*job, frame) || !is_taken()) return false;
 
   Schedule& schedule = frame.canvas->schedule;
   const Work waiting{work.tile, static_cast<PassSet>(schedule.waiting(work.tile) & work.passes)};

@@ -35,8 +35,8 @@ void put_name(Canvas& canvas, const TileCommitted& commit, NameId name) {
   Canvas::TileDeliveries& tile = canvas.deliveries[commit.tile];
   for (int pass = 0; pass < pass_count; ++pass)
     if (commit.passes >> pass & 1) tile.by[pass] = place;
-  tile.taken += commit.taken;
-  tile.counters[std::countr_zero(commit.passes)] = commit.counters;
+  const int first = std::countr_zero(commit.passes);
+  tile.taken[first] = commit.taken, tile.counters[first] = commit.counters;
 }
 
 /// The sums over its frames.

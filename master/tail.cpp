@@ -10,6 +10,7 @@ namespace rayfarm {
 namespace {
 
 constexpr double seconds_of_unknown = 0.5;
+constexpr double shortest_patience = 2, patience = 20;  // seconds, and times what was expected
 
 template <class Value>
 std::vector<std::size_t> greatest_first(std::span<const Value> values, double Value::*key) {
@@ -39,6 +40,10 @@ std::vector<double> times_left(std::span<const HeldWork> held, std::uint32_t thr
     free_at.push(left.back());
   }
   return left;
+}
+
+bool is_stuck(const HeldWork& work) {
+  return work.spent && *work.spent > std::max(shortest_patience, patience * work.expected);
 }
 
 double time_until_free(std::vector<double> times_left, std::uint32_t threads) {

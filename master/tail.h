@@ -26,6 +26,10 @@ struct HeldWork {
 /// late by some time is expected to be late by as much again.
 std::vector<double> times_left(std::span<const HeldWork> held, std::uint32_t threads);
 
+/// Whether nobody should wait for it any longer: after 20 times what was expected, and no less than the 2 s within which a
+/// silent worker is lost.
+bool is_stuck(const HeldWork& work);
+
 /// Work of one job that one worker holds, and no other.
 struct Straggler {
   std::uint64_t holder = 0;

@@ -27,9 +27,15 @@ struct Opinion {
 };
 
 struct Trial {
+  /// Who has a lease to say its opinion.
+  struct Asked {
+    WorkerId worker{};
+    LeaseId lease{};
+  };
   std::uint32_t wanted = 2;  // that must agree
   std::vector<Opinion> opinions;
-  std::vector<WorkerId> asked;  // who have a lease to say theirs
+  std::vector<Asked> asked;
+  std::vector<Asked> overdue;  // may still answer, but are not waited for
 };
 
 /// The place of the first opinion of those that are right, once that is known: one is final, or enough agree.

@@ -1,13 +1,15 @@
 // Pixels that are believed only when several workers agree on them, and what befalls those who do not.
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "master/farm_state.h"
+#include "master/tail.h"
 
 namespace rayfarm {
 namespace {
 
-constexpr auto no_judge_words = "tiles wait for another worker to check them";
+constexpr std::size_t most_open = 256;  // trials of a job: 49 kB each for each opinion
 
 /// S. Vigna's SplitMix64: neighbouring numbers give unrelated ones.
 std::uint64_t mixed(std::uint64_t z) {
@@ -21,13 +23,20 @@ TrialId trial_of(const Lease& lease) {
   return {{lease.job, lease.frame}, lease.work.tile, lease.work.passes};
 }
 
+void forget_asked(Trial& trial, WorkerId worker) {
+  for (auto* asked : {&trial.asked, &trial.overdue})
+    std::erase_if(*asked, [&](const Trial::Asked& a) { return a.worker == worker; });
+}
+
 /// The worker has said nothing about it yet, and is not about to.
 bool is_unheard(const Worker& worker, const Trial& trial) {
   const std::uint64_t process = worker.info.process;
   const auto is_its = [&](const Opinion& o) {
     return o.identity == worker.identity || (process != 0 && o.process == process);
   };
-  return std::ranges::none_of(trial.opinions, is_its) && std::ranges::count(trial.asked, worker.id) == 0;
+  return std::ranges::none_of(trial.opinions, is_its) &&
+         std::ranges::count(trial.asked, worker.id, &Trial::Asked::worker) == 0 &&
+         std::ranges::count(trial.overdue, worker.id, &Trial::Asked::worker) == 0;
 }
 
 bool may_judge(const Worker& worker, const TrialId& id, const Trial& trial) {
@@ -44,10 +53,6 @@ std::uint32_t Farm::State::opinions_wanted_on(const Worker& worker, LeaseId id, 
                          mixed(limits.secret ^ mixed(static_cast<std::uint64_t>(id))));
 }
 
-bool Farm::State::may_judge_now(const Worker& worker, const TrialId& id) const {
-  return jobs.at(id.frame.job).state == JobState::running && may_judge(worker, id, trials.at(id));
-}
-
 std::optional<TrialId> Farm::State::unheard_trial(const Worker& worker, const Lease& lease) const {
   const FrameId frame{lease.job, lease.frame};
   for (auto trial = trials.lower_bound({frame, lease.work.tile, 0});
@@ -57,34 +62,58 @@ std::optional<TrialId> Farm::State::unheard_trial(const Worker& worker, const Le
   return std::nullopt;
 }
 
-int Farm::State::priority_of(const TrialId& id) const { return jobs.at(id.frame.job).spec.priority; }
-
-std::optional<TrialId> Farm::State::next_trial_for(const Worker& worker) const {
-  std::optional<TrialId> next;
-  for (const TrialId& id : open_trials)
-    if ((!next || priority_of(id) > priority_of(*next)) && may_judge_now(worker, id)) next = id;
-  return next;
+std::optional<TrialId> Farm::State::first_for(const Worker& worker, const TrialQueue& queue) const {
+  if (!may_work(worker)) return std::nullopt;
+  for (const auto& [place, ids] : queue) {
+    if (jobs.at(place.second).state != JobState::running || refuses(worker, place.second)) continue;
+    const auto id =
+        std::ranges::find_if(ids, [&](const TrialId& i) { return is_unheard(worker, trials.at(i)); });
+    if (id != ids.end()) return *id;
+  }
+  return std::nullopt;
 }
 
 std::optional<TrialId> Farm::State::asked_trial_for(const Worker& worker) const {
-  const bool is_final = worker.info.kind == WorkerKind::local;
-  std::optional<TrialId> next;
-  for (const auto& [id, trial] : trials)
-    if ((is_final || bears_another_opinion(trial)) && (!next || priority_of(id) > priority_of(*next)) &&
-        may_judge_now(worker, id))
-      next = id;
-  return next;
+  if (worker.info.kind == WorkerKind::remote) return first_for(worker, asked_trials);
+  // The master's own word is the last, however many are asked.
+  std::optional<std::pair<Place, TrialId>> next;
+  for (const auto& [id, trial] : trials) {
+    const Job& job = jobs.at(id.frame.job);
+    const std::pair found{place_of(job), id};
+    if (job.state == JobState::running && may_judge(worker, id, trial) && (!next || found < *next))
+      next = found;
+  }
+  return next ? std::optional(next->second) : std::nullopt;
+}
+
+bool Farm::State::waits_for_judges(Place job) const {
+  const auto open = open_trials.find(job);
+  return open != open_trials.end() && open->second.size() >= most_open;
+}
+
+std::string Farm::State::words_for_trials(const Job& job) const {
+  const auto open = open_trials.find(place_of(job));
+  if (job.state != JobState::running || open == open_trials.end()) return {};
+  const auto has_no_judge = [&](const TrialId& id) {
+    return std::ranges::none_of(workers,
+                                [&](const auto& w) { return may_judge(w.second, id, trials.at(id)); });
+  };
+  if (std::ranges::none_of(open->second, has_no_judge)) return {};
+  if (!waits_for_judges(open->first)) return "tiles wait for another worker to check them";
+  return count_of_tiles(open->second.size()) +
+         " wait for another worker to check them; until one comes, workers are given no more";
 }
 
 void Farm::State::give_trial(Worker& worker, const TrialId& id, FarmTime now) {
   Job& job = jobs.at(id.frame.job);
   const Work work{id.tile, id.passes};
-  trials.at(id).asked.push_back(worker.id);
+  const LeaseId lease_id{++last_lease};
+  trials.at(id).asked.push_back({worker.id, lease_id});
   update_trial(id);
   introduce(worker, job, frame_at(job, id.frame.frame));
   Lease lease{job.id, id.frame.frame, work, pixels_in(work, job.spec.settings) * job.spec.settings.spp, now};
   lease.is_check = true;
-  assign(worker, LeaseId{++last_lease}, std::move(lease));
+  assign(worker, lease_id, std::move(lease));
 }
 
 bool Farm::State::give_asked_trial(Worker& worker, FarmTime now) {
@@ -94,18 +123,51 @@ bool Farm::State::give_asked_trial(Worker& worker, FarmTime now) {
   return trial.has_value();
 }
 
+void Farm::State::put_in(TrialQueue& queue, const TrialId& id, bool is_in) {
+  const Place place = place_of(jobs.at(id.frame.job));
+  if (is_in) {
+    queue[place].insert(id);
+  } else if (const auto of_job = queue.find(place); of_job != queue.end()) {
+    of_job->second.erase(id);
+    if (of_job->second.empty()) queue.erase(of_job);
+  }
+}
+
 void Farm::State::update_trial(const TrialId& id) {
-  if (wants_opinions(trials.at(id)))
-    open_trials.insert(id);
-  else
-    open_trials.erase(id);
+  const Trial& trial = trials.at(id);
+  const bool is_open = wants_opinions(trial);
+  put_in(open_trials, id, is_open);
+  put_in(asked_trials, id, !is_open && bears_another_opinion(trial));
 }
 
 void Farm::State::withdraw(const Worker& worker, const Lease& lease) {
   const auto trial = trials.find(trial_of(lease));
   if (trial == trials.end()) return;
-  std::erase(trial->second.asked, worker.id);
+  forget_asked(trial->second, worker.id);
   update_trial(trial->first);
+}
+
+void Farm::State::note_overdue(FarmTime now) {
+  bool is_any = false;
+  for (auto& [id, trial] : trials) {
+    const Job& job = jobs.at(id.frame.job);
+    const double cost = expected_rays(job, *frame_of(job, id.frame.frame), {id.tile, id.passes});
+    const auto is_late = [&](const Trial::Asked& asked) {
+      const Worker& worker = workers.at(asked.worker);
+      // All that it holds may be done before.
+      const double expected =
+          static_cast<double>(worker.leases.size()) * expected_seconds(cost, tracing_speed(worker, job.id));
+      const std::chrono::duration<double> spent = now - worker.leases.at(asked.lease).given;
+      return is_stuck({expected, spent.count()});
+    };
+    const auto late = std::ranges::stable_partition(trial.asked, std::not_fn(is_late));
+    if (late.empty()) continue;
+    trial.overdue.insert(trial.overdue.end(), late.begin(), late.end());
+    trial.asked.erase(late.begin(), late.end());
+    update_trial(id);
+    is_any = true;
+  }
+  if (is_any) fill_all(now);
 }
 
 void Farm::State::hear(Worker& worker, const Lease& lease, std::uint32_t wanted, Result result,
@@ -114,31 +176,29 @@ void Farm::State::hear(Worker& worker, const Lease& lease, std::uint32_t wanted,
   const auto [place, is_new] = trials.try_emplace(id);
   Trial& trial = place->second;
   if (is_new) trial.wanted = wanted;
-  std::erase(trial.asked, worker.id);
+  forget_asked(trial, worker.id);
+  ++revision;
   const FarmTime taken = book(worker, lease, result, now);
   const bool is_final = worker.info.kind == WorkerKind::local;
   trial.opinions.push_back(
       {worker.name, worker.identity, worker.info.process, is_final, std::move(result.images), taken});
   if (const auto right = verdict(trial)) return settle_trial(id, *right, now);
   update_trial(id);
-  const auto can_judge = [&](const auto& w) { return may_judge(w.second, id, trial); };
-  Job& job = jobs.at(lease.job);
-  if (!trial.asked.empty() || std::ranges::any_of(workers, can_judge) || !job.message.empty()) return;
-  job.message = no_judge_words;
-  touch(job);
 }
 
 void Farm::State::end_trial(const TrialId& id, FarmTime now) {
+  put_in(open_trials, id, false);
+  put_in(asked_trials, id, false);
   const Trial trial = std::move(trials.extract(id).mapped());
-  open_trials.erase(id);
-  for (const WorkerId asked : trial.asked) {
-    Worker& worker = workers.at(asked);
-    const auto lease = std::ranges::find_if(
-        worker.leases, [&](const auto& held) { return held.second.is_check && trial_of(held.second) == id; });
-    const LeaseId revoked = lease->first;
-    call_off(worker, revoked, now);
-    worker.send(Revoke{{revoked}});
-  }
+  for (const Trial::Asked& asked : trial.asked) end_check(asked, now);
+  for (const Trial::Asked& asked : trial.overdue) end_check(asked, now);
+}
+
+void Farm::State::end_check(const Trial::Asked& asked, FarmTime now) {
+  Worker& worker = workers.at(asked.worker);
+  const Lease lease = call_off(worker, asked.lease, now);
+  jobs.at(lease.job).time_wasted += time_wasted(lease, now);
+  worker.send(Revoke{{asked.lease}});
 }
 
 void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime now) {
@@ -146,7 +206,6 @@ void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime no
   end_trial(id, now);
   Job& job = jobs.at(id.frame.job);
   JobFrame& frame = frame_at(job, id.frame.frame);
-  if (job.message == no_judge_words) job.message.clear();
   ++job.tiles_checked;
   touch(job);
   std::vector<const Opinion*> lies;
@@ -162,6 +221,7 @@ void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime no
                " and others say otherwise",
            name);
       lies.push_back(&opinion);
+      job.time_wasted += opinion.taken;
     }
   }
   for (const Opinion* lie : lies)
@@ -196,14 +256,18 @@ void Farm::State::strike_opinions(const std::string& identity, FarmTime now) {
   for (const auto& [id, trial] : trials) all.push_back(id);
   for (const TrialId& id : all) {
     Trial& trial = trials.at(id);
-    if (std::erase_if(trial.opinions, [&](const Opinion& o) { return o.identity == identity; }) == 0)
-      continue;
+    const auto own = std::ranges::find(trial.opinions, identity, &Opinion::identity);
+    if (own == trial.opinions.end()) continue;
+    Job& job = jobs.at(id.frame.job);
+    job.time_wasted += own->taken;
+    touch(job);
+    trial.opinions.erase(own);
     if (!trial.opinions.empty()) {
       update_trial(id);
       continue;
     }
     end_trial(id, now);
-    wait_again(jobs.at(id.frame.job), id.frame.frame, {id.tile, id.passes});
+    wait_again(job, id.frame.frame, {id.tile, id.passes});
   }
 }
 
@@ -219,7 +283,6 @@ std::size_t Farm::State::lose_all_of(const KnownWorker& worker, FarmTime now) {
         tiles += lost.lost.size();
         lose_passes(job, frame, lost);
         job.pace.restart(now, job.pixels_done);
-        touch(job);
         update_queue(job);
       }
   }

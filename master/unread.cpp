@@ -81,9 +81,13 @@ void Farm::State::lose_unread(Job& job, JobFrame& frame, const RayCounters& coun
 void Farm::State::lose_passes(Job& job, JobFrame& frame, const PassesLost& lost) {
   record(lost);
   const bool was_complete = is_complete(job, frame);
+  const FarmTime taken = frame.thread_time;
   job.pixels_done -= frame.pixels_done;
   lose(job, frame, lost);
   job.pixels_done += frame.pixels_done;
+  const FarmTime wasted = taken - frame.thread_time;
+  job.thread_time -= wasted, job.time_wasted += wasted;
+  touch(job);
   job.counters = job.counters - lost.counters;
   if (frame.canvas->film && frame.canvas->film->pixels_done() != frame.pixels_done) {
     std::shared_ptr<Film>& film = frame.canvas->film;

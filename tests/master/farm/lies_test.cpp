@@ -130,6 +130,33 @@ TEST(Lies, HoweverMuchIsRevokedNoHonestAnswerIsOne) {
     EXPECT_NO_THROW(farm.receive(late.id(), rendered(work, {64 * 64, 64}), 2s));
 }
 
+TEST(Lies, CostTimeThatWasWasted) {
+  Farm farm;
+  FakeWorker liar(farm, remote("liar"));
+  const JobId job = farm.submit(job_of(forty_tiles), 0s);
+  for (int i = 1; i <= 4; ++i) deliver_one(farm, liar, i * 1s, one_ulp);
+  EXPECT_EQ(farm.job(job, 4s)->thread_time, 4s);
+  EXPECT_THROW(deliver_one(farm, liar, 5s, lies.at("a NaN")), WorkerError);
+  farm.remove_worker(liar.id(), "it lied", 5s);
+  EXPECT_EQ(farm.job(job, 5s)->thread_time, 0s);
+  EXPECT_GE(farm.job(job, 5s)->time_wasted, 4s);
+
+  const JobId checked = farm.submit(verified(Quorum{2}, {64, 64}), 5s);
+  farm.cancel(job, 5s);
+  FakeWorker wrong(farm, remote("wrong", 1), 5s), a(farm, remote("a", 1), 5s), b(farm, remote("b", 1), 5s);
+  const auto say = [&](FakeWorker& worker, FarmTime now, const Lie& lie) {
+    if (worker.held().empty()) return;
+    Result result = rendered(worker.held()[0], {64, 64});
+    worker.drop(result.lease);
+    lie(result);
+    farm.receive(worker.id(), result, now);
+  };
+  say(wrong, 7s, one_ulp), say(a, 9s, nothing), say(b, 11s, nothing);
+  EXPECT_EQ(farm.job(checked, 11s)->state, JobState::done);
+  EXPECT_EQ(farm.job(checked, 11s)->thread_time, 1s) << "of the pixels that were taken";
+  EXPECT_EQ(farm.job(checked, 11s)->time_wasted, 1s) << "of those that were wrong";
+}
+
 TEST(Lies, ALateResultIsAnOpinionWhileItsTileIsOnTrial) {
   for (const Lie& lie : {Lie(nothing), Lie(one_ulp)}) {
     Farm farm;

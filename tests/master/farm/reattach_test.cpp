@@ -114,14 +114,33 @@ TEST(Reattach, WhatIsNoWorkOfThisFarmIsUnneeded) {
   EXPECT_EQ(unneeded_in(worker.take_messages()), (std::vector{LeaseId{1}, LeaseId{2}, LeaseId{3}}));
 }
 
-TEST(Reattach, NobodyIsAskedForAJobThatIsPausedOrWhenItIsDrained) {
+TEST(Reattach, NobodyIsAskedWhenItIsDrainedOrToGoOnWithAJobThatIsPaused) {
   for (const bool is_paused : {true, false}) {
     DeadMaster dead;
     FakeWorker worker(dead.farm, remote("pc"), 2s);
     is_paused ? dead.farm.pause(dead.job, 2s) : dead.farm.drain("pc", 2s);
-    dead.farm.receive(worker.id(), Holds{{{dead.held[0], true}}}, 2s);
+    dead.farm.receive(worker.id(), Holds{{{dead.held[0], !is_paused}}}, 2s);
     EXPECT_TRUE(worker.held().empty());
   }
+}
+
+TEST(Reattach, WhatIsFinishedOfAPausedJobIsTakenAlthoughNothingIsRendered) {
+  DeadMaster dead;
+  dead.farm.pause(dead.job, 2s);
+  FakeWorker worker(dead.farm, remote("pc", 1), 2s);
+  Holds holds;
+  for (const Assignment& work : dead.held) holds.tiles.push_back({work, true});
+  const std::uint64_t before = dead.farm.job(dead.job, 2s)->pixels_done;
+  dead.farm.receive(worker.id(), holds, 2s);
+  EXPECT_EQ(worker.held().size(), dead.held.size());
+  EXPECT_TRUE(unneeded_in(worker.take_messages()).empty());
+  while (!worker.held().empty()) worker.finish_one(3s);
+  EXPECT_EQ(dead.farm.job(dead.job, 3s)->state, JobState::paused);
+  EXPECT_EQ(dead.farm.job(dead.job, 3s)->pixels_done, before + dead.held.size() * 64 * 64);
+  dead.farm.resume(dead.job, 4s);
+  while (!worker.held().empty()) worker.finish_one(5s);
+  EXPECT_EQ(dead.farm.job(dead.job, 5s)->counters, made_up_counters(ten_tiles));
+  EXPECT_EQ(dead.farm.film(dead.job)->rgb(), made_up_picture(dead.job, ten_tiles));
 }
 
 TEST(Reattach, AfterTheNetworkWasCutAWorkerGoesOnToo) {
@@ -156,6 +175,8 @@ TEST(Reattach, AWorkerThatIsBackBeforeItsOldConnectionIsNoticedDeadIsTheSame) {
   farm.receive(cut.id(), GiveBack{{held[0].lease}, "out of memory"}, 1s);
   farm.remove_worker(cut.id(), "it was silent", 2s);
   EXPECT_EQ(farm.workers().size(), 1u);
+  EXPECT_NO_THROW(farm.receive(again.id(), from_the_grave, 2s)) << "a network may have sent it on twice";
+  EXPECT_EQ(farm.trust_in("pc"), Trust{});
   while (!again.held().empty()) again.finish_one(4s);
   EXPECT_EQ(farm.job(job, 4s)->counters, made_up_counters(ten_tiles));
   EXPECT_EQ(farm.film(job)->rgb(), made_up_picture(job, ten_tiles));

@@ -27,6 +27,14 @@ TEST(Tail, AThreadThatHasNothingTakesWhatWaitsAtOnce) {
   EXPECT_EQ(times_left(std::vector<HeldWork>{{5, 2}, {4, {}}}, 3), (std::vector<double>{3, 4}));
 }
 
+TEST(Tail, WhoTakesTwentyTimesAsLongIsNotWaitedFor) {
+  EXPECT_FALSE(is_stuck({.expected = 1}));
+  EXPECT_FALSE(is_stuck({.expected = 1, .spent = 20}));
+  EXPECT_TRUE(is_stuck({.expected = 1, .spent = 20.1}));
+  EXPECT_FALSE(is_stuck({.expected = 0.001, .spent = 1.9})) << "who is silent is lost within 2 s";
+  EXPECT_TRUE(is_stuck({.expected = 0.001, .spent = 2.1}));
+}
+
 TEST(Tail, WhatNothingIsKnownOfTakesHalfASecond) {
   EXPECT_EQ(expected_seconds(0, 100), 0.5);
   EXPECT_EQ(expected_seconds(100, 0), 0.5);

@@ -66,6 +66,81 @@ TEST(Trials, OneWorkerThatNeverAnswersStopsNoJob) {
       }
 }
 
+// Two that are alive and never answer had stopped a job: one more than wanted was asked, and nobody else.
+TEST(Trials, JudgesThatNeverAnswerAreNotWaitedFor) {
+  constexpr Size one_tile{64, 64};
+  Farm farm;
+  FakeWorker a(farm, remote("a", 1)), silent(farm, remote("silent", 1)), mute(farm, remote("mute", 1)),
+      b(farm, remote("b", 1));
+  const JobId job = farm.submit(verified(Quorum{3}, one_tile), 0s);
+  a.finish_one(1s);
+  b.finish_one(2s);
+  FakeWorker c(farm, remote("c", 1), 3s);
+  EXPECT_TRUE(c.held().empty()) << "enough are asked";
+  for (const auto now : {4s, 9s}) farm.tick(now);
+  EXPECT_TRUE(c.held().empty());
+  farm.tick(60s);
+  c.finish_one(61s);
+  EXPECT_EQ(farm.job(job, 61s)->state, JobState::done);
+  EXPECT_EQ(farm.job(job, 61s)->counters, made_up_counters(one_tile));
+  EXPECT_TRUE(silent.held().empty() && mute.held().empty()) << "revoked";
+}
+
+TEST(Trials, WithoutAJudgeWorkIsGivenOutOnlyUntilSomeHundredTilesWait) {
+  constexpr Size large{40 * 64, 20 * 64};
+  Farm farm;
+  FakeWorker a(farm, remote("a", 8)), b(farm, remote("b", 8));
+  JobSpec spec = verified(Quorum{3}, large);
+  spec.priority = 90;
+  const JobId job = farm.submit(spec, 0s), other = farm.submit(job_of(forty_tiles), 0s);
+  FarmTime now = 1s;
+  const auto work = [&](FakeWorker& worker, JobId of) {
+    now += 1s;
+    const auto next = std::ranges::find(worker.held(), of, &Assignment::job);
+    if (next == worker.held().end()) return false;
+    const Result result = rendered(*next, of == job ? large : forty_tiles);
+    worker.drop(result.lease);
+    farm.receive(worker.id(), result, now);
+    return true;
+  };
+  int tiles = 0;
+  for (bool is_any = true; is_any; ++tiles) is_any = work(a, job) | work(b, job);
+  EXPECT_GT(tiles, 200);
+  EXPECT_LT(tiles, 400);
+  EXPECT_NE(farm.job(job, 1s)->message.find("wait for another worker to check them; until one comes"),
+            std::string::npos);
+  while (work(a, other) || work(b, other)) {}
+  EXPECT_EQ(farm.job(other, 1s)->state, JobState::done) << "of less priority";
+
+  const std::uint64_t before = farm.revision();
+  std::optional<FakeWorker> c(std::in_place, farm, remote("c", 8), 2s);
+  EXPECT_EQ(farm.job(job, 2s)->message, "");
+  EXPECT_NE(farm.revision(), before);
+  farm.remove_worker(c->id(), "gone", 3s);
+  EXPECT_NE(farm.job(job, 3s)->message, "") << "the last judge has left";
+  c.emplace(farm, remote("c", 8), 4s);
+  for (bool is_any = true; is_any;) is_any = work(a, job) | work(b, job) | work(*c, job);
+  EXPECT_EQ(farm.job(job, 4s)->state, JobState::done);
+  EXPECT_EQ(farm.film(job)->rgb(), made_up_picture(job, large));
+}
+
+TEST(Trials, APriorityThatChangesGoesForTilesThatWaitToBeJudgedToo) {
+  constexpr Size one_tile{64, 64};
+  Farm farm;
+  FakeWorker a(farm, remote("a", 1));
+  const JobId first = farm.submit(verified(Quorum{2}, one_tile), 0s);
+  a.finish_one(1s);
+  const JobId second = farm.submit(verified(Quorum{2}, one_tile), 0s);
+  a.finish_one(1s);
+  farm.set_priority(second, 90, 1s);
+  FakeWorker judge(farm, remote("judge", 1), 2s);
+  EXPECT_EQ(judge.held().at(0).job, second);
+  judge.finish_one(3s);
+  EXPECT_EQ(judge.held().at(0).job, first);
+  judge.finish_one(3s);
+  EXPECT_EQ(farm.job(first, 3s)->state, JobState::done);
+}
+
 TEST(Trials, OneWorkerOnTwoConnectionsIsNoQuorum) {
   for (const std::string certificate : {"", "c0"}) {
     Farm farm;
