@@ -236,8 +236,8 @@ void Farm::State::disbelieve(const std::string& identity, NameId its_name, FarmT
   record_known(identity);
   const std::string& name = names[static_cast<std::size_t>(its_name)];
   if (const std::size_t tiles = lose_all_of(liar, now); tiles > 0)
-    tell(count_of_tiles(tiles) + " that worker " + name +
-             " delivered for unfinished jobs are rendered again, as it was wrong elsewhere",
+    tell("to be rendered again, as worker " + name + " was wrong elsewhere: " + count_of_tiles(tiles) +
+             " that it delivered for unfinished jobs",
          name);
   if (liar.trust.mismatches < most_mismatches) return;
   ban(names[static_cast<std::size_t>(liar.names.back())], now);

@@ -49,15 +49,16 @@ void FarmPrograms::start_worker(const std::string& name, int threads) {
 }
 
 void FarmPrograms::start_worker_with(const std::string& name, const Words& options) {
+  start_program(name, Words{"rayfarm-worker", "--name", name} + options);
+}
+
+void FarmPrograms::start_program(const std::string& name, const Words& words) {
   workers_[name] =
-      std::make_unique<ChildProgram>(Words{"rayfarm-worker", "--name", name} + options,
-                                     std::map<std::string, std::string>{}, folder / (name + ".log"));
+      std::make_unique<ChildProgram>(words, std::map<std::string, std::string>{}, folder / (name + ".log"));
 }
 
 std::string FarmPrograms::start_listening_worker(const std::string& name) {
-  const Words words{"rayfarm-worker", "--listen", "127.0.0.1:0", "--name", name, "--threads", "1"};
-  workers_[name] =
-      std::make_unique<ChildProgram>(words, std::map<std::string, std::string>{}, folder / (name + ".log"));
+  start_program(name, {"rayfarm-worker", "--listen", "127.0.0.1:0", "--name", name, "--threads", "1"});
   return workers_[name]->next_line();
 }
 

@@ -32,6 +32,8 @@ class FarmPrograms : public testing::Test {
   /// It dials the master.
   void start_worker(const std::string& name, int threads = 1);
   void start_worker_with(const std::string& name, const Words& options);
+  /// Another program in a worker's place.
+  void start_program(const std::string& name, const Words& words);
   /// The first line that it says on stdout.
   std::string start_listening_worker(const std::string& name);
   ChildProgram& master() { return *master_; }
