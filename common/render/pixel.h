@@ -49,7 +49,10 @@ void visit_adaptive_samples(Tracer<Observer>& tracer, const PixelSampler& sample
     return adapt1::Seen{color, signature.value()};
   });
   std::uint32_t number = 0;
-  for (const adapt1::Sample& s : tree.samples()) visit(TakenSample{number++, s.at, s.seen.color, s.weight});
+  for (const adapt1::Sample& s : tree.samples()) {
+    if (tracer.watch()) tracer.watch()->sample_weighed(number, s.weight);
+    visit(TakenSample{number++, s.at, s.seen.color, s.weight});
+  }
 }
 
 /// Traces the samples of a pixel: the very ones of the picture, for whoever renders, counts or watches.

@@ -10,10 +10,10 @@ template std::optional<PixelSum> pixel_sum(Tracer<CountingObserver>&, const Rend
 
 std::optional<std::vector<PassImage>> render_tile(const World& world, const RenderSettings& settings,
                                                   std::uint32_t tile, PassSet passes,
-                                                  const std::function<bool()>& stop) {
+                                                  const std::function<bool()>& stop, PixelWatch* watch) {
   Tracer<CountingObserver> tracer(world, settings);
-  return render_passes(tracer, settings, tile, passes,
-                       [&](Pixel pixel) { return pixel_sum(tracer, settings, pixel, stop); });
+  tracer.set_watch(watch);
+  return render_passes(tracer, settings, tile, passes, stop);
 }
 
 }  // namespace rayfarm

@@ -11,11 +11,14 @@
 
 namespace rayfarm {
 
+class PixelWatch;  // trace.h
+
 /// Renders `passes` of the tile, coarse first. Asks stop() between samples; when it says true the call
 /// returns nothing, and what was rendered of the tile is dropped. Every sample is a pure function of (world,
-/// settings, pixel, sample index): no thread, order or tile matters.
+/// settings, pixel, sample index): no thread, order or tile matters. The watch, if any, is told of each pixel.
 std::optional<std::vector<PassImage>> render_tile(const World& world, const RenderSettings& settings,
                                                   std::uint32_t tile, PassSet passes,
-                                                  const std::function<bool()>& stop);
+                                                  const std::function<bool()>& stop,
+                                                  PixelWatch* watch = nullptr);
 
 }  // namespace rayfarm

@@ -1,5 +1,6 @@
-// The passes of a tile, for whoever renders and watches at once.
+// The passes of a tile, for whoever renders and observes at once.
 #pragma once
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -8,12 +9,11 @@
 
 namespace rayfarm {
 
-/// Renders `passes` of the tile, coarse first. sum_of(Pixel) traces the pixel's samples by the tracer and gives
-/// their sum, or nothing when it is to stop: then nothing is returned. The observer counts.
-template <class Observer, class SumOf>
+/// As render_tile() (render.h), by a tracer whose observer counts, and with its watch if it has one.
+template <class Observer>
 std::optional<std::vector<PassImage>> render_passes(Tracer<Observer>& tracer, const RenderSettings& settings,
                                                     std::uint32_t tile_number, PassSet passes,
-                                                    SumOf&& sum_of) {
+                                                    const std::function<bool()>& stop) {
   const Tile tile = tile_at({settings.width, settings.height}, tile_number);
   std::vector<PassImage> images;
   bool stopped = false;
@@ -24,9 +24,11 @@ std::optional<std::vector<PassImage>> render_passes(Tracer<Observer>& tracer, co
     tracer.observer.counters = {};
     for_each_pixel(tile, pass, [&](std::uint32_t x, std::uint32_t y) {
       if (stopped) return;
-      const std::optional<PixelSum> sum = sum_of(Pixel{x, y});
+      if (tracer.watch()) tracer.watch()->pixel_begins(tracer.observer.counters);
+      const std::optional<PixelSum> sum = pixel_sum(tracer, settings, Pixel{x, y}, stop);
       stopped = !sum;
       if (stopped) return;
+      if (tracer.watch()) tracer.watch()->pixel_ended({x, y}, tracer.observer.counters);
       image.counters.bad_samples += sum->bad_samples;
       for (const float value : sum->mean(pixel_weight(settings))) image.rgb.push_back(value);
     });

@@ -17,18 +17,24 @@
 
 namespace rayfarm {
 
-/// Who heeds primary rays alone watches them, beside the observer. Pictures are rendered by the same code with and
-/// without one: it is asked for once a primary ray.
-class PrimaryWatch {
+/// Who heeds pixels and their primary rays alone watches them, beside the observer. Pictures are rendered by the
+/// same code with and without one: it is asked for once a pixel and once a primary ray.
+class PixelWatch {
  public:
-  explicit PrimaryWatch(bool hears_misses) : hears_misses(hears_misses) {}
+  explicit PixelWatch(bool hears_misses) : hears_misses(hears_misses) {}
+  /// The pixel's samples come next, or have been traced, those of a pass in order; one that is given up never ends.
+  /// Of its pass, so much is counted.
+  virtual void pixel_begins(const RayCounters& counters) = 0;
+  virtual void pixel_ended(Pixel pixel, const RayCounters& counters) = 0;
   /// A primary ray has ended there. If misses are heard: nowhere when it hits nothing or the camera has none.
-  virtual void ended(const std::optional<Hit>& hit) = 0;
+  virtual void ray_ended(const std::optional<Hit>& hit) = 0;
+  /// The weight of a pixel's sample, by number, that an adaptive sampler has given it when all are traced.
+  virtual void sample_weighed(std::uint32_t number, std::uint32_t weight) = 0;
 
   const bool hears_misses;
 
  protected:
-  ~PrimaryWatch() = default;
+  ~PixelWatch() = default;
 };
 
 /// What tracing needs, whoever watches.
@@ -37,7 +43,7 @@ struct TracerState {
   const RenderSettings& settings;
   CameraRays camera;
   Vec3d background;
-  PrimaryWatch* watch = nullptr;
+  PixelWatch* watch = nullptr;
   std::vector<SampledLight> lights{};  // of the sample
   WorldWorkspace workspace{};
   std::function<bool()> stop{};
@@ -64,7 +70,7 @@ class Tracer {
     const std::optional<Ray> ray = state_.camera.ray(x, y);
     if (!ray) {
       observer.no_ray();
-      if (state_.watch && state_.watch->hears_misses) state_.watch->ended(std::nullopt);
+      if (state_.watch && state_.watch->hears_misses) state_.watch->ray_ended(std::nullopt);
       return {};
     }
     place_lights(light_point);
@@ -96,7 +102,8 @@ class Tracer {
   bool is_stopped() const { return state_.stopped; }
 
   /// Null: nobody. It must outlive the tracer.
-  void watch_primary_rays(PrimaryWatch* watch) { state_.watch = watch; }
+  void set_watch(PixelWatch* watch) { state_.watch = watch; }
+  PixelWatch* watch() const { return state_.watch; }
 
  private:
   static constexpr int rays_between_questions = 256;
@@ -136,7 +143,7 @@ class Tracer {
     const std::optional<Hit> hit = nearest_hit(query);
     observer.traced(kind, ray, depth, importance, hit);
     if (kind == RayKind::primary && state_.watch && (hit || state_.watch->hears_misses))
-      state_.watch->ended(hit);
+      state_.watch->ray_ended(hit);
     Vec3d color = hit ? radiance_at(*hit, ray, depth, importance) : radiance_of_nothing(ray);
     for (std::uint32_t i = 0; i < state_.world.glows.size(); ++i)
       if (const std::optional<Vec3d> glow = glow_along(state_.world.glows[i], query, hit)) {

@@ -24,6 +24,30 @@ class Stopwatch {
   std::int64_t last_ = 0;
 };
 
+/// Puts the maps' values of each pixel.
+class MapsWatch final : public SurfaceWatch {
+ public:
+  MapsWatch(const World& world, const RenderSettings& settings, const MapView& view,
+            std::span<float* const> into, bool is_timed)
+      : SurfaceWatch(world, settings, Reduction::majority),
+        width_(settings.width),
+        view_(view),
+        into_(into),
+        stopwatch_(is_timed) {}
+
+  void pixel_ended(Pixel pixel, const RayCounters& counters) override {
+    PixelFacts known = facts(counters);
+    known.seconds = stopwatch_.lap();
+    put_all(known, view_, std::size_t{pixel.y} * width_ + pixel.x, into_);
+  }
+
+ private:
+  std::size_t width_;
+  const MapView& view_;
+  std::span<float* const> into_;
+  Stopwatch stopwatch_;
+};
+
 }  // namespace
 
 CollectingRender::CollectingRender(const World& world, const RenderSettings& settings,
@@ -47,38 +71,19 @@ void CollectingRender::also_collect(CloudFile& cloud) {
 
 CollectingRender::Images CollectingRender::render_tile(std::uint32_t tile, PassSet passes,
                                                        const std::function<bool()>& stop) {
-  if (!cloud_ && maps_.empty()) return rayfarm::render_tile(world_, settings_, tile, passes, stop);
-  if (!cloud_) return render_passes_by(Tracer<CountingObserver>(world_, settings_), tile, passes, stop);
+  std::optional<MapsWatch> watch;
+  if (!maps_.empty()) watch.emplace(world_, settings_, view_, into_, is_timed_);
+  PixelWatch* const watching = watch ? &*watch : nullptr;
+  if (!cloud_) return rayfarm::render_tile(world_, settings_, tile, passes, stop, watching);
   CloudPart part(*cloud_, ranks_[tile]);
-  Images images = render_passes_by(Tracer<WithCloud<CountingObserver>>(world_, settings_, {{}, &part}), tile,
-                                   passes, stop);
+  Tracer<WithCloud<CountingObserver>> tracer(world_, settings_, {{}, &part});
+  tracer.set_watch(watching);
+  Images images = render_passes(tracer, settings_, tile, passes, stop);
   if (images)
     part.end();
   else
     cloud_->give_up();
   return images;
-}
-
-template <class Tracer>
-CollectingRender::Images CollectingRender::render_passes_by(Tracer tracer, std::uint32_t tile, PassSet passes,
-                                                            const std::function<bool()>& stop) {
-  if (maps_.empty())
-    return render_passes(tracer, settings_, tile, passes,
-                         [&](Pixel pixel) { return pixel_sum(tracer, settings_, pixel, stop); });
-  PixelWatch watch(world_, settings_, Reduction::majority);
-  tracer.watch_primary_rays(&watch);
-  Stopwatch stopwatch(is_timed_);
-  return render_passes(tracer, settings_, tile, passes, [&](Pixel pixel) {
-    const std::size_t place = std::size_t{pixel.y} * settings_.width + pixel.x;
-    fetch_all(place, into_);
-    watch.begin_pixel(tracer.observer.counters);
-    std::optional<PixelSum> sum = watched_sum(tracer, settings_, pixel, stop, watch);
-    if (!sum) return sum;
-    PixelFacts facts = watch.facts(tracer.observer.counters);
-    facts.seconds = stopwatch.lap();
-    put_all(facts, view_, place, into_);
-    return sum;
-  });
 }
 
 }  // namespace rayfarm

@@ -28,9 +28,6 @@ class CollectingRender {
 
  private:
   using Images = std::optional<std::vector<PassImage>>;
-  template <class Tracer>
-  Images render_passes_by(Tracer tracer, std::uint32_t tile, PassSet passes,
-                          const std::function<bool()>& stop);
 
   const World& world_;
   const RenderSettings& settings_;

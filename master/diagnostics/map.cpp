@@ -40,17 +40,17 @@ PixelMapper::PixelMapper(const World& world, const RenderSettings& settings, con
       tracer_(world, settings),
       watch_(world, settings, request.reduction) {
   assert(request.kind->put && "the farm has the values of this map");
-  tracer_.watch_primary_rays(&watch_);
+  tracer_.set_watch(&watch_);
 }
 
 std::optional<PixelFacts> PixelMapper::facts(Pixel pixel, const std::function<bool()>& stop) {
   // Where an adaptive sampler puts its samples depends on all that they show.
   const bool first_hits_do = request_.kind->source == MapSource::surfaces && !is_adaptive(settings_.sampler);
-  watch_.begin_pixel(tracer_.observer.counters);
+  watch_.pixel_begins(tracer_.observer.counters);
   const bool is_timed = request_.kind->source == MapSource::time;  // to ask for the time is a system call
   const double begin = is_timed ? thread_seconds() : 0;
-  const bool complete = first_hits_do ? trace_first_hits(pixel, stop)
-                                      : watched_sum(tracer_, settings_, pixel, stop, watch_).has_value();
+  const bool complete =
+      first_hits_do ? trace_first_hits(pixel, stop) : pixel_sum(tracer_, settings_, pixel, stop).has_value();
   if (!complete) return std::nullopt;
   PixelFacts facts = watch_.facts(tracer_.observer.counters);
   if (is_timed) facts.seconds = thread_seconds() - begin;
@@ -71,7 +71,7 @@ bool PixelMapper::trace_first_hits(Pixel pixel, const std::function<bool()>& sto
     const Sample2D place = sampler.sample(s, 0);
     const std::optional<Hit> hit = tracer_.first_hit(pixel.x + place.u, pixel.y + place.v);
     tracer_.observer.traced(RayKind::primary, {}, 0, 1, hit);
-    watch_.ended(hit);
+    watch_.ray_ended(hit);
   }
   return true;
 }

@@ -47,7 +47,7 @@ class PixelMapper {
   MapRequest request_;
   MapView view_;
   Tracer<CountingObserver> tracer_;
-  PixelWatch watch_;
+  SurfaceWatch watch_;
 };
 
 /// Nothing is returned when stop() said so; it is asked from all threads.

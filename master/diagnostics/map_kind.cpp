@@ -122,18 +122,7 @@ void put_one(const PixelFacts& pixel, const MapView& view, std::size_t place, fl
     if (into) maps[i].put(pixel, view, into + place * maps[i].channels.size());
 }
 
-template <std::size_t i>
-void fetch_one(std::size_t place, const float* into) {
-  if constexpr (maps[i].source != MapSource::farm)
-    if (into) __builtin_prefetch(into + place * maps[i].channels.size(), 1);
-}
-
 }  // namespace
-
-void fetch_all(std::size_t place, std::span<float* const> into) {
-  [&]<std::size_t... i>(std::index_sequence<i...>) { (fetch_one<i>(place, into[i]), ...); }
-  (std::make_index_sequence<std::size(maps)>());
-}
 
 void put_all(const PixelFacts& pixel, const MapView& view, std::size_t place, std::span<float* const> into) {
   [&]<std::size_t... i>(std::index_sequence<i...>) { (put_one<i>(pixel, view, place, into[i]), ...); }

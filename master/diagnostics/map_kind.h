@@ -55,8 +55,6 @@ std::span<const MapKind> all_maps();
 /// The pixel's values of several maps at once: into[i] is where all_maps()[i] has its values, null where it is not
 /// wanted; they are put at channels.size() * place.
 void put_all(const PixelFacts& pixel, const MapView& view, std::size_t place, std::span<float* const> into);
-/// Tells the processor that they will be put: it waits for memory else, once a pixel and map.
-void fetch_all(std::size_t place, std::span<float* const> into);
 const MapKind* map_named(std::string_view name);  // "depth", "normal-camera", ...; null: there is none
 
 /// "depth, normal, ... or cost".
