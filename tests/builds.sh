@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The same bits from every build: renders the bundled scenes with builds of the whole tree at -O1 and -O3 and for each
-# CPU level that this PC can run, and compares the EXR files byte by byte.
+# The same bits from every build: renders the bundled scenes with builds of the whole tree at -O1 and -O3, by Clang and
+# for each CPU level that this PC can run, and compares the EXR files byte by byte.
 #   tests/builds.sh [FOLDER]     with the folder of a finished -O3 build; made when absent
 set -euo pipefail
 top=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
@@ -42,6 +42,7 @@ try() {  # NAME -DOPTION=VALUE...
 }
 
 try O1 -DCMAKE_CXX_FLAGS_RELEASE=-O1
+try clang -DCMAKE_CXX_COMPILER=clang++
 for level in x86-64-v2 x86-64-v3 x86-64-v4; do
   if can_run $level; then try $level -DRAYFARM_MARCH=$level; else skipped+=("$level"); fi
 done

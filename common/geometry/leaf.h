@@ -93,7 +93,9 @@ Box moved(const Box& box, const BoundedAffine& by);
   return g.leave > g.blur ? g : Glance{};
 }
 
-inline Vec3<DoubleDouble> precise(const Vec3d& v) { return {{v.x}, {v.y}, {v.z}}; }
+inline Vec3<DoubleDouble> precise(const Vec3d& v) {
+  return {DoubleDouble(v.x), DoubleDouble(v.y), DoubleDouble(v.z)};
+}
 
 /// In twice the digits: what is left of the error is that of the transform and of the ray's own origin.
 LocalRay<DoubleDouble> to_local_precisely(const Leaf& leaf, const RayQuery& q);

@@ -8,10 +8,11 @@ namespace {
 LocalRay<DoubleDouble> precise_errors(const Leaf& leaf, const RayQuery& q) {
   const Leaf::Precise& of = leaf.precise;
   LocalRay<DoubleDouble> local;
-  local.origin_error = {of.error_per_size * q.origin_size + of.origin_error +
-                        leaf.stretch * q.ray.origin_error};
-  local.direction_error = {of.error_per_size * q.direction_size};
-  local.spread = {(of.spread_per_size + 0x1p-1000) * q.direction_size};  // a quotient must not overflow
+  local.origin_error =
+      DoubleDouble(of.error_per_size * q.origin_size + of.origin_error + leaf.stretch * q.ray.origin_error);
+  local.direction_error = DoubleDouble(of.error_per_size * q.direction_size);
+  local.spread =
+      DoubleDouble((of.spread_per_size + 0x1p-1000) * q.direction_size);  // a quotient must not overflow
   local.aside = precise(leaf.aside), local.share = precise(leaf.share);
   return local;
 }

@@ -10,6 +10,10 @@ namespace rayfarm {
 
 struct DoubleDouble {
   double hi = 0, lo = 0;
+
+  constexpr DoubleDouble() = default;
+  constexpr explicit DoubleDouble(double value) : hi(value) {}
+  constexpr DoubleDouble(double high, double low) : hi(high), lo(low) {}
   bool operator==(const DoubleDouble&) const = default;
 };
 
@@ -52,7 +56,7 @@ inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
 // As a number type of geometry (number.h). No operation but a comparison may meet an infinity.
 
 template <>
-constexpr double unit_roundoff_of<DoubleDouble> = 0x1p-102;
+inline constexpr double unit_roundoff_of<DoubleDouble> = 0x1p-102;
 
 inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
   return a.hi != b.hi ? a.hi < b.hi : a.lo < b.lo;

@@ -111,6 +111,8 @@ struct CountingVisit {
   bool operator()(std::uint32_t place) { return visit(place); }
   void box_tested() { ++tests.boxes; }
 };
+template <class Visit>
+CountingVisit(Visit, RayTests&) -> CountingVisit<Visit>;
 
 template <class Csg, class Visit>
 void visit_objects(const World::Parts& w, const RayQuery& q, const double& t_max, WorkspaceWith<Csg>& ws,
