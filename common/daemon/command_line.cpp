@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace rayfarm {
@@ -46,15 +47,16 @@ class TomlConfig : public CLI::ConfigTOML {
   }
 };
 
-int parse(CLI::App& app, int argc, char** argv) try {
+/// The program's exit code, if it ends here.
+std::optional<int> parse(CLI::App& app, int argc, char** argv) try {
   app.parse(argc, argv);
-  return 0;
+  return std::nullopt;
 } catch (const CLI::ConfigError& error) {
   std::cerr << "configuration file: an unknown option (" << error.what()
             << "); its keys are those of --help\n";
   return bad_usage;
 } catch (const CLI::Success& error) {
-  std::exit(app.exit(error));  // --help, --version
+  return app.exit(error);  // --help, --version
 } catch (const CLI::ParseError& error) {
   app.exit(error);
   return bad_usage;
@@ -77,7 +79,7 @@ void declare_common_options(CLI::App& app, Openness& openness, const std::string
 }
 
 int run_daemon(CLI::App& app, int argc, char** argv, const std::function<int()>& serve) {
-  if (const int failed = parse(app, argc, argv)) return failed;
+  if (const std::optional<int> ended = parse(app, argc, argv)) return *ended;
   try {
     return serve();
   } catch (const std::exception& error) {

@@ -16,7 +16,18 @@ constexpr std::array kinds{CredentialKind::pairing_code, CredentialKind::certifi
 std::int64_t seconds(WallTime time) {
   return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
 }
-WallTime time_of(std::int64_t seconds) { return WallTime(std::chrono::seconds(seconds)); }
+WallTime time_of(const json& value) {
+  constexpr auto most = std::chrono::floor<std::chrono::seconds>(WallTime::duration::max()).count();
+  if (!value.is_number_integer() || value > most || value < -most)
+    throw std::runtime_error("a time must be a number of seconds, is " + value.dump());
+  return WallTime(std::chrono::seconds(value.get<std::int64_t>()));
+}
+
+std::uint32_t count_of(const json& value) {
+  if (!value.is_number_unsigned() || value > UINT32_MAX)
+    throw std::runtime_error("a number of uses must be a whole number, is " + value.dump());
+  return value.get<std::uint32_t>();
+}
 
 json to_json(const Credential& c) {
   return {{"id", c.id},
@@ -44,7 +55,7 @@ Credential credential_in(const json& value) {
   c.id = value.at("id"), c.kind = kind_named(value.at("kind")), c.role = *role;
   c.name = value.at("name"), c.proof = value.at("proof"), c.parent = value.at("parent");
   c.made = time_of(value.at("made")), c.until = time_of(value.at("until"));
-  c.uses_left = value.at("uses_left"), c.is_revoked = value.at("revoked");
+  c.uses_left = count_of(value.at("uses_left")), c.is_revoked = value.at("revoked");
   return c;
 }
 
@@ -56,12 +67,14 @@ std::string json_of(const Credentials& credentials) {
   return json{{"format", format}, {"credentials", std::move(all)}}.dump(1) + "\n";
 }
 
-Credentials credentials_in(const std::string& text) {
+Credentials credentials_in(const std::string& text) try {
   const json value = json::parse(text);
   if (value.at("format") != format) throw std::runtime_error("it was written by another version of rayfarm");
   std::vector<Credential> all;
   for (const json& entry : value.at("credentials")) all.push_back(credential_in(entry));
   return Credentials(std::move(all));
+} catch (const json::exception& error) {
+  throw std::runtime_error(error.what());
 }
 
 }  // namespace rayfarm

@@ -229,6 +229,8 @@ TileRow decode_tile(FrameId id, ByteView bytes) {
   std::memcpy(n.data(), bytes.data(), sizeof n);
   TileRow row;
   row.commit.frame = id;
+  if (n[0] > UINT32_MAX || n[1] == 0 || n[1] > all_passes)
+    throw CodecError("a tile's row has a tile or passes that cannot be");
   row.commit.tile = static_cast<std::uint32_t>(n[0]), row.commit.passes = static_cast<PassSet>(n[1]);
   row.worker = n[2];
   row.commit.taken = FarmTime(static_cast<std::int64_t>(n[3]));
@@ -248,6 +250,7 @@ Bytes pack_pixels(const TileCommitted& commit) {
 }
 
 void unpack_pixels(ByteView bytes, Size film, TileCommitted& commit) {
+  if (commit.tile >= tile_count(film)) throw CodecError("a tile lies outside its picture");
   const Tile tile = tile_at(film, commit.tile);
   std::size_t count = 0;
   for (int pass = 0; pass < pass_count; ++pass)

@@ -46,7 +46,7 @@ TileRow decode_tile(FrameId id, ByteView bytes);
 
 /// The pixels of a commit, passes from coarse to fine.
 Bytes pack_pixels(const TileCommitted& commit);
-/// Gives them back to their commit. Throws CodecError unless they are as many as that has.
+/// Gives them back to their commit. Throws CodecError unless that lies in the film, and they are as many as it has.
 void unpack_pixels(ByteView bytes, Size film, TileCommitted& commit);
 
 }  // namespace rayfarm

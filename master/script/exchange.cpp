@@ -111,7 +111,9 @@ std::string encode_wish(const std::vector<std::string>& files) { return message(
 namespace {
 
 /// Takes the next part of a body.
-ByteView next_part(std::string_view& body, std::size_t size) {
+ByteView next_part(std::string_view& body, const json& bytes) {
+  if (!bytes.is_number_unsigned()) throw std::runtime_error("a size must be a whole number");
+  const std::size_t size = bytes;
   if (size > body.size()) throw std::runtime_error("it ends too early");
   const ByteView part{reinterpret_cast<const std::uint8_t*>(body.data()), size};
   body.remove_prefix(size);

@@ -1,0 +1,22 @@
+// The journal's file, damaged: a master starts with it, shows what is left, and writes on.
+#include "master/farm.h"
+#include "master/journal/journal.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/support/scratch_folder.h"
+
+namespace rayfarm {
+
+void fuzz(ByteView bytes) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "journal.db";
+  put_content(file, std::string(text_of(bytes)));
+  try {
+    Journal journal(file);
+    const Journal::Opened opened = journal.read();
+    Farm farm(FarmLimits{}, opened.past, opened.latest);
+    for (const JobView& job : farm.jobs(opened.latest)) farm.film(job.id);
+    journal.write(farm.take_records());
+  } catch (const JournalError&) {}
+}
+
+}  // namespace rayfarm

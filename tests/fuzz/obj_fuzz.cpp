@@ -1,0 +1,8 @@
+// OBJ files.
+#include "tests/fuzz/mesh.h"
+
+namespace rayfarm {
+
+void fuzz(ByteView bytes) { fuzz_mesh("mesh.obj", bytes); }
+
+}  // namespace rayfarm
