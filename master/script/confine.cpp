@@ -33,7 +33,7 @@ void confine(std::uint64_t address_space_bytes) {
   lower_limit(RLIMIT_CORE, 0, 0);
   lower_limit(RLIMIT_FSIZE, 0, 0);
   lower_limit(RLIMIT_NPROC, 0, 0);
-#ifndef __SANITIZE_ADDRESS__  // sanitizers reserve terabytes of addresses, and look at memory through pipes
+#ifndef RAYFARM_SANITIZED  // sanitizers reserve terabytes of addresses, and look at memory through pipes
   lower_limit(RLIMIT_NOFILE, 0, 0);
   lower_limit(RLIMIT_AS, address_space_bytes, address_space_bytes);
 #else
