@@ -136,7 +136,9 @@ std::ptrdiff_t gather_union(const World::Parts& w, const RayQuery& q, WorkspaceW
     inside += gather(items, w.leaves, q, infinity, ws.csg);
     Boundary b;
     for (std::size_t next = 0; next_boundary(items, ws.csg, next, b);)
-      ws.events.push_back({b.t - b.error, b.t + b.error, ref.object, b});
+      if (const double lo = b.t - b.error, hi = b.t + b.error;
+          lo <= hi)  // else so far away that nobody knows where
+        ws.events.push_back({lo, hi, ref.object, b});
     return true;
   });
   std::sort(ws.events.begin(), ws.events.end(),

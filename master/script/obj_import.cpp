@@ -2,6 +2,7 @@
 // 0) nor for an index that is too large, so the lines are looked through before.
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <istream>
@@ -13,7 +14,7 @@
 namespace rayfarm {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view blanks = " \t";  // tinyobjloader knows no others
 
 /// Takes the next word of a line; empty at its end.
 std::string_view next_word(std::string_view& line) {
@@ -56,7 +57,10 @@ class ObjCheck {
   }
 
   void look_at(std::string_view line) {
-    if (line.find('\0') != std::string_view::npos) fail("is no text");
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    // Where tinyobjloader took some of them for the end of a line, or not for a blank, it would see other faces.
+    const auto is_control = [](char c) { return c >= 0 && c < ' ' && c != '\t'; };
+    if (std::ranges::any_of(line, is_control)) fail("is no text");
     const std::string_view keyword = next_word(line);
     if (keyword == "v") {
       expect_numbers(line, 3, "a point"), ++points_.count;

@@ -118,6 +118,8 @@ TEST(MeshImport, ABrokenObjSaysWhere) {
             "a.obj:4: names point -4, but there are only 3 before");
   EXPECT_EQ(complaint("a.obj", points + "f 1 2 x\n"), "a.obj:4: \"x\" is no number of point");
   EXPECT_EQ(complaint("a.obj", points + "f 1//1 2//1 3//1\n"), "a.obj:4: names normal 1, but the file has 0");
+  EXPECT_EQ(complaint("a.obj", points + "v\v0 0 1\nf 1 2 4\n"), "a.obj:4: is no text");
+  EXPECT_EQ(complaint("a.obj", points + "# \rf 1 2 9\n"), "a.obj:4: is no text");
   EXPECT_EQ(complaint("a.obj", points), "a.obj has no triangles");
   EXPECT_EQ(complaint("a.stl", points), "a.stl: a mesh is read from a file that ends in .obj or .ply");
 }
