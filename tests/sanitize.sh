@@ -9,6 +9,6 @@ sanitizer=$1
 build=$top/build/sanitize-${sanitizer//,/-}
 "$top/deploy/build.sh" "$build" -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DRAYFARM_SANITIZE="$sanitizer" -DRAYFARM_WEB=OFF
 
-export TSAN_OPTIONS=second_deadlock_stack=1
+export TSAN_OPTIONS="suppressions=$top/tests/tsan_suppressions.txt second_deadlock_stack=1"
 export UBSAN_OPTIONS=print_stacktrace=1
 ctest --test-dir "$build" --output-on-failure -E '^(Web\.|stability$)' "${@:2}"
