@@ -160,10 +160,10 @@ void Farm::State::note_overdue(FarmTime now) {
       const std::chrono::duration<double> spent = now - worker.leases.at(asked.lease).given;
       return is_stuck({expected, spent.count()});
     };
-    const auto late = std::ranges::stable_partition(trial.asked, std::not_fn(is_late));
-    if (late.empty()) continue;
-    trial.overdue.insert(trial.overdue.end(), late.begin(), late.end());
-    trial.asked.erase(late.begin(), late.end());
+    const auto late = std::stable_partition(trial.asked.begin(), trial.asked.end(), std::not_fn(is_late));
+    if (late == trial.asked.end()) continue;
+    trial.overdue.insert(trial.overdue.end(), late, trial.asked.end());
+    trial.asked.erase(late, trial.asked.end());
     update_trial(id);
     is_any = true;
   }
