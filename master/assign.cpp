@@ -30,6 +30,7 @@ Job* Farm::State::next_job_for(const Worker& worker) {
 
 bool Farm::State::give_one(Worker& worker, FarmTime now) {
   Job* job = next_job_for(worker);
+  if (give_share(worker, job, now)) return true;
   if (const auto trial = first_for(worker, open_trials)) {
     const Job& tried = jobs.at(trial->frame.job);
     const bool is_next = job == nullptr || tried.spec.priority >= job->spec.priority;
@@ -65,17 +66,17 @@ void Farm::State::give(Worker& worker, Job& job, JobFrame& frame, const Work& wo
 
 void Farm::State::fill(Worker& worker, FarmTime now) {
   while (give_one(worker, now)) {}
-  double_stragglers(now);
+  relieve_stragglers(now);
 }
 
 void Farm::State::fill_all(FarmTime now) {
   // In rounds of one lease each, so that the few tiles of a small picture are spread over all workers.
-  bool anybody_took = !queue.empty() || !trials.empty();
+  bool anybody_took = !queue.empty() || !trials.empty() || !splits.empty();
   while (anybody_took) {
     anybody_took = false;
     for (auto& [id, worker] : workers) anybody_took |= give_one(worker, now);
   }
-  double_stragglers(now);
+  relieve_stragglers(now);
 }
 
 bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
@@ -104,7 +105,7 @@ bool Farm::State::start(Job& job, JobFrame& frame, FarmTime now) {
 void Farm::State::end_lease(Worker& worker, LeaseId id, FarmTime now) {
   const Lease lease = call_off(worker, id, now);
   Job& job = jobs.at(lease.job);
-  job.time_wasted += time_wasted(lease, now);
+  waste(job, worker, lease, now);
   ++job.tiles_given_back;
   touch(job);
   if (lease.twin) {
@@ -112,6 +113,11 @@ void Farm::State::end_lease(Worker& worker, LeaseId id, FarmTime now) {
     return;
   }
   if (lease.is_check) return withdraw(worker, lease);
+  if (lease.split) return splits.at(*lease.split).original.reset();
+  if (lease.piece) {
+    splits.at(lease.piece->split).pieces[lease.piece->place].is_waiting = true;
+    return;
+  }
   wait_again(job, lease.frame, lease.work);
 }
 

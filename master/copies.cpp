@@ -20,31 +20,12 @@ std::uint64_t unfinished_pixels(const Job& job) {
 
 double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).count(); }
 
-/// Of one of the worker's threads: its own, or the job's mean while nothing is known of it. 0: nothing is known at all.
-double speed_with(const Job& job, const Worker& worker) {
-  if (const double own = tracing_speed(worker, job.id); own > 0) return own;
-  const double seconds = seconds_of(job.thread_time);
-  return seconds > 0 ? static_cast<double>(job.counters.rays()) / seconds : 0;
-}
-
 }  // namespace
-
-/// Of one job.
-struct Farm::State::Candidates {
-  std::vector<Straggler> stragglers;
-  std::vector<LeaseId> leases;  // theirs
-  std::uint64_t pixels = 0;     // leased
-};
-
-/// Who may do something twice, on so many threads.
-struct Farm::State::Helper {
-  Worker* worker;
-  std::uint32_t threads;
-};
 
 void Farm::tick(FarmTime now) {
   state_->note_overdue(now);
-  state_->double_stragglers(now);
+  if (!state_->splits.empty()) return state_->fill_all(now);  // who was too slow for a piece may no longer be
+  state_->relieve_stragglers(now);
 }
 
 bool Farm::State::is_ending(const Job& job) const {
@@ -61,11 +42,11 @@ std::vector<Farm::State::Helper> Farm::State::helpers() {
     if (!may_work(worker)) continue;
     const std::size_t held = worker.leases.size(), threads = worker.info.threads;
     const Job* next = next_job_for(worker);
-    if (!next && held < threads) all.push_back({&worker, static_cast<std::uint32_t>(threads - held)});
+    if (!next && held < threads) all.push_back({&worker, static_cast<std::uint32_t>(threads - held), true});
     if (!next) continue;
     const auto [known, is_new] = ending.try_emplace(next->id);
     if (is_new) known->second = is_ending(*next);
-    if (known->second) all.push_back({&worker, 1});
+    if (known->second) all.push_back({&worker, 1, false});
   }
   return all;
 }
@@ -76,57 +57,77 @@ double Farm::State::seconds_of_queue(const Job& job, std::uint64_t pixels_leased
   if (unfinished <= pixels_leased || job.pixels_done == 0) return 0;
   double speed = 0;
   for (const auto& [id, worker] : workers)
-    if (may_work(worker)) speed += worker.info.threads * speed_with(job, worker);
+    if (may_work(worker)) speed += worker.info.threads * expected_speed(worker, job);
   const double rays_a_pixel = static_cast<double>(job.counters.rays()) / static_cast<double>(job.pixels_done);
   return speed > 0 ? static_cast<double>(unfinished - pixels_leased) * rays_a_pixel / speed : 0;
 }
 
-void Farm::State::double_stragglers(FarmTime now) {
+void Farm::State::relieve_stragglers(FarmTime now) {
   if (now < next_look) return;
   const std::vector<Helper> all = helpers();
   if (all.empty()) return;
-  std::map<JobId, Candidates> by_job;
+  std::map<JobId, std::vector<Held>> by_job;
   std::map<WorkerId, double> busy;
-  for (const auto& [id, worker] : workers) busy[id] = add_candidates(worker, now, by_job);
+  for (const auto& [id, worker] : workers) busy[id] = note_held(worker, now, by_job);
   if (!by_job.empty()) next_look = now + between_looks;
-
-  for (auto& [id, candidates] : by_job) {
+  for (auto& [id, held] : by_job) {
     const Job& job = jobs.at(id);
-    // While something waits, only what would end after all of that.
-    const double queue = seconds_of_queue(job, candidates.pixels);
-    for (Straggler& straggler : candidates.stragglers)
-      if (straggler.time_left <= queue) straggler.time_left = 0;
-    std::vector<IdleWorker> idle;
-    for (const auto& [worker, threads] : all)
-      idle.push_back({static_cast<std::uint64_t>(worker->id), speed_with(job, *worker),
-                      refuses(*worker, id) ? 0 : threads, busy.at(worker->id)});
-    for (const Copy& copy : copies_of(candidates.stragglers, idle))
-      give_copy(workers.at(WorkerId{candidates.stragglers[copy.straggler].holder}),
-                candidates.leases[copy.straggler], *all[copy.worker].worker, now);
+    if (!share_stragglers(job, held, all, now)) copy_stragglers(job, std::move(held), all, busy, now);
   }
 }
 
 /// When the holder has a thread for something else.
-double Farm::State::add_candidates(const Worker& holder, FarmTime now, std::map<JobId, Candidates>& by_job) {
-  std::vector<HeldWork> held;
+double Farm::State::note_held(const Worker& holder, FarmTime now,
+                              std::map<JobId, std::vector<Held>>& by_job) {
+  std::vector<HeldWork> work;
   std::vector<double> costs;
   for (const auto& [id, lease] : holder.leases) {
-    const Job& job = jobs.at(lease.job);
-    costs.push_back(expected_rays(job, *frame_of(job, lease.frame), lease.work));
-    held.push_back({expected_seconds(costs.back(), speed_with(job, holder))});
-    if (lease.begun) held.back().spent = seconds_of(now - *lease.begun);
+    costs.push_back(expected_cost(lease));
+    work.push_back({expected_seconds(costs.back(), expected_speed(holder, jobs.at(lease.job)))});
+    if (lease.begun) work.back().spent = seconds_of(now - *lease.begun);
   }
-  const std::vector<double> left = times_left(held, holder.info.threads);
-  std::size_t place = 0;
+  const std::vector<double> left = times_left(work, holder.info.threads);
+  std::size_t i = 0;
   for (const auto& [id, lease] : holder.leases) {
-    const std::size_t i = place++;
-    by_job[lease.job].pixels += pixels_in(lease.work, jobs.at(lease.job).spec.settings);
-    if (lease.twin || lease.is_check) continue;
-    Candidates& candidates = by_job[lease.job];
-    candidates.stragglers.push_back({static_cast<std::uint64_t>(holder.id), left[i], costs[i]});
-    candidates.leases.push_back(id);
+    by_job[lease.job].push_back(
+        {id, &lease, {static_cast<std::uint64_t>(holder.id), left[i], costs[i], work[i].spent}});
+    ++i;
   }
   return time_until_free(left, holder.info.threads);
+}
+
+double Farm::State::expected_cost(const Lease& lease) const {
+  const Job& job = jobs.at(lease.job);
+  const double whole = expected_rays(job, *frame_of(job, lease.frame), lease.work);
+  if (!lease.piece) return whole;
+  const std::uint64_t samples = pixels_in(lease.work, job.spec.settings) * job.spec.settings.spp;
+  return whole * static_cast<double>(lease.samples) / static_cast<double>(samples);
+}
+
+void Farm::State::copy_stragglers(const Job& job, std::vector<Held> held, const std::vector<Helper>& helpers,
+                                  const std::map<WorkerId, double>& busy, FarmTime now) {
+  std::uint64_t pixels = 0;
+  for (const Held& h : held) pixels += h.lease->samples / job.spec.settings.spp;
+  std::erase_if(held, [&](const Held& h) {
+    const Lease& lease = *h.lease;
+    const bool is_done_twice =
+        lease.twin || lease.split || (lease.piece && splits.at(lease.piece->split).original);
+    return is_done_twice || lease.is_check;
+  });
+  // While something waits, only what would end after all of that.
+  const double queue = seconds_of_queue(job, pixels);
+  std::vector<Straggler> stragglers;
+  for (const Held& h : held) {
+    stragglers.push_back(h.straggler);
+    if (h.straggler.time_left <= queue) stragglers.back().time_left = 0;
+  }
+  std::vector<IdleWorker> idle;
+  for (const Helper& helper : helpers)
+    idle.push_back({static_cast<std::uint64_t>(helper.worker->id), expected_speed(*helper.worker, job),
+                    refuses(*helper.worker, job.id) ? 0 : helper.threads, busy.at(helper.worker->id)});
+  for (const Copy& copy : copies_of(stragglers, idle))
+    give_copy(workers.at(WorkerId{stragglers[copy.straggler].holder}), held[copy.straggler].id,
+              *helpers[copy.worker].worker, now);
 }
 
 void Farm::State::give_copy(Worker& holder, LeaseId original, Worker& worker, FarmTime now) {
@@ -134,6 +135,7 @@ void Farm::State::give_copy(Worker& holder, LeaseId original, Worker& worker, Fa
   Job& job = jobs.at(lease.job);
   const LeaseId id{++last_lease};
   Lease copy{lease.job, lease.frame, lease.work, lease.samples, now};
+  copy.piece = lease.piece;
   copy.twin = {holder.id, original};
   lease.twin = {worker.id, id};
   introduce(worker, job, frame_at(job, lease.frame));
@@ -146,9 +148,15 @@ void Farm::State::end_twin(const Lease::Twin& twin, FarmTime now) {
   Worker& worker = workers.at(twin.worker);
   const Lease lease = call_off(worker, twin.lease, now);
   Job& job = jobs.at(lease.job);
-  job.time_wasted += time_wasted(lease, now);
+  waste(job, worker, lease, now);
   touch(job);
   worker.send(Revoke{{twin.lease}});
+}
+
+void Farm::State::waste(Job& job, const Worker& worker, const Lease& lease, FarmTime now) {
+  const FarmTime time = time_wasted(lease, now);
+  job.time_wasted += time;
+  job.rays_wasted += static_cast<std::uint64_t>(seconds_of(time) * tracing_speed(worker, job.id));
 }
 
 }  // namespace rayfarm

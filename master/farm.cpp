@@ -242,7 +242,7 @@ std::vector<FarmRecord> Farm::take_records() {
       const Job& job = found->second;
       state_->record(JobChanged{id, job.state, job.spec.priority, job.message, job.spec.key,
                                 job.tiles_given_back, job.ended, job.tiles_doubled, job.tiles_checked,
-                                job.time_wasted});
+                                job.time_wasted, job.tiles_shared, job.rays_wasted});
     }
   return std::exchange(state_->records, {});
 }

@@ -5,7 +5,7 @@
 //
 // A job has one frame, or those of an animation, whose scenes come one after the other.
 //
-// Invariants: each (job, frame, tile, pass) is waiting, leased to one worker or, near the end, to two, or done; it is
+// Invariants: each (job, frame, tile, pass) is waiting, leased to one worker or, near the end, to two or in pieces, or done; it is
 // committed exactly once, under a live lease. A pass that comes again is compared with what was committed, never
 // written.
 //
@@ -15,7 +15,9 @@
 // lease for each thread until it has delivered something, then two more, and beyond that as many as keep it
 // busy for 250 ms by its learned speed. It is sent the scene of the coming frame, too. Near the
 // end of a job, what is expected to end after all that still waits is done a second time by a worker that would be sooner
-// (tail.h): the first result counts, the other lease is revoked.
+// (tail.h): the first result counts, the other lease is revoked. Where more threads idle than there are such tiles, a tile
+// is shared by several in pieces (split.h), which the farm puts together: it is committed once, as a whole. Work that is
+// verified is not shared.
 //
 // What is to be verified (verification.h) is on trial first: its tile counts as leased until enough others, or the
 // master's own threads, say the same pixels; only then it is committed. Who has nothing else to do is asked although
@@ -59,6 +61,7 @@ struct WorkerInfo {
   WorkerKind kind = WorkerKind::remote;
   std::uint64_t process = 0;  // the same when it comes back without having ended; 0: not known
   std::string certificate{};  // its id; empty: it showed none
+  bool takes_pieces = false;  // can render a piece of a tile
 };
 
 enum class JobState : std::uint8_t { waiting, running, paused, done, cancelled, failed };
@@ -118,7 +121,9 @@ struct JobView {
   std::uint64_t tiles_doubled = 0;     // given to a second worker near the end
   Verification verification;
   std::uint64_t tiles_checked = 0;  // on which several had to agree, and did
+  std::uint64_t tiles_shared = 0;   // given to several in pieces near the end
   FarmTime time_wasted{};           // of threads: on leases that ended so, and on those that came second
+  std::uint64_t rays_wasted = 0;    // in that time; estimated by the workers' speeds where they were cut off
 };
 
 /// One of its frames.
@@ -218,6 +223,7 @@ class Farm {
   /// still come after its lease was revoked: it counts while its tile is on trial, and is compared with what others
   /// delivered: a difference is a warning that names both.
   void receive(WorkerId worker, Result result, FarmTime now);
+  void receive(WorkerId worker, PieceResult piece, FarmTime now);
   /// With a reason: the worker cannot render the jobs of these leases, and is not offered them again; a job
   /// that every worker gave back so before anything of it was done has failed. Without one: the worker is
   /// stopping and gets nothing more; what it still holds it may finish.

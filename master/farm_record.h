@@ -54,6 +54,7 @@ struct JobChanged {
   std::optional<FarmTime> ended;
   std::uint64_t tiles_doubled = 0, tiles_checked = 0;
   FarmTime time_wasted{};
+  std::uint64_t tiles_shared = 0, rays_wasted = 0;
 };
 struct SceneDropped {
   FrameId id;

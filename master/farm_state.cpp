@@ -85,6 +85,7 @@ void Farm::State::add_frame(Job& job, JobFrame frame) {
 void Farm::State::end(Job& job, JobFrame& frame, FarmTime now) {
   frame.ended = now;
   drop_trials({job.id, frame.number}, now);
+  drop_splits({job.id, frame.number}, now);
   for (auto& [id, worker] : workers) forget(worker, {job.id, frame.number});
   const bool is_done = is_complete(job, frame);
   if (is_done)

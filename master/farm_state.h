@@ -11,10 +11,31 @@
 #include "master/farm.h"
 #include "master/farm_record.h"
 #include "master/job.h"
+#include "master/split.h"
+#include "master/tail.h"
 #include "master/trial.h"
 #include "master/worker.h"
 
 namespace rayfarm {
+
+/// A tile whose passes are rendered in pieces.
+struct Split {
+  FrameId frame;
+  Work work;
+  struct Piece {
+    Tile area;
+    bool is_waiting = true;
+    std::vector<PassImage> images{};  // once it is there
+    NameId by{};
+    WorkerId worker{};
+    FarmTime taken{};
+  };
+  std::vector<Piece> pieces;
+  std::size_t missing = 0;  // pieces that are not there
+  /// Who renders the whole, too; whoever is first ends the other.
+  std::optional<Lease::Twin> original{};
+  FarmTime expected{};  // when that one is expected to be done
+};
 
 struct Farm::State {
   FarmLimits limits;
@@ -46,6 +67,9 @@ struct Farm::State {
   using TrialQueue = std::map<Place, std::set<TrialId>>;
   TrialQueue open_trials;   // exactly those that want more opinions
   TrialQueue asked_trials;  // exactly those that want none, but bear one more
+  // A tile that is shared is leased in its frame's schedule; it is committed when all pieces are there.
+  std::map<SplitId, Split> splits;
+  std::uint64_t last_split = 0;
   std::set<std::string, std::less<>> drained_names, banned_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those that were not kept.
   std::vector<std::string> names{"(one of many)"};
@@ -103,18 +127,52 @@ struct Farm::State {
   bool start(Job& job, JobFrame& frame, FarmTime now);
 
   // The tail.
-  struct Candidates;
-  struct Helper;
+  /// A lease, as it was looked at.
+  struct Held {
+    LeaseId id{};
+    const Lease* lease = nullptr;
+    Straggler straggler;
+  };
+  /// Who may help with what others hold, on so many threads.
+  struct Helper {
+    Worker* worker = nullptr;
+    std::uint32_t threads = 0;
+    bool is_idle = false;  // has nothing else to do
+  };
   /// So little of it is unfinished that it can be seen who will be late.
   bool is_ending(const Job& job) const;
   std::vector<Helper> helpers();
   double seconds_of_queue(const Job& job, std::uint64_t pixels_leased) const;
-  /// Gives threads that have nothing to do what is worth doing a second time; looks for it every few milliseconds only.
-  void double_stragglers(FarmTime now);
-  double add_candidates(const Worker& holder, FarmTime now, std::map<JobId, Candidates>& by_job);
+  /// Gives threads that have nothing to do a share of what others hold, or what is worth doing a second time; looks for
+  /// it every few milliseconds only.
+  void relieve_stragglers(FarmTime now);
+  double note_held(const Worker& holder, FarmTime now, std::map<JobId, std::vector<Held>>& by_job);
+  double expected_cost(const Lease& lease) const;
+  void copy_stragglers(const Job& job, std::vector<Held> held, const std::vector<Helper>& helpers,
+                       const std::map<WorkerId, double>& busy, FarmTime now);
   void give_copy(Worker& holder, LeaseId original, Worker& worker, FarmTime now);
   /// Somebody else's result was taken.
   void end_twin(const Lease::Twin& twin, FarmTime now);
+  /// The lease ended, and what was rendered for it is of no use.
+  void waste(Job& job, const Worker& worker, const Lease& lease, FarmTime now);
+
+  // Tiles that are shared.
+  /// False: nothing is worth it.
+  bool share_stragglers(const Job& job, const std::vector<Held>& held, const std::vector<Helper>& helpers,
+                        FarmTime now);
+  void split(const Held& straggler, std::uint32_t pieces, FarmTime now);
+  /// To a thread without anything to do; nothing of less priority than what else it might do.
+  bool give_share(Worker& worker, const Job* other, FarmTime now);
+  void give_piece(Worker& worker, SplitId id, std::size_t place, FarmTime now);
+  /// To one that takes no pieces, when nobody is there who does.
+  void give_whole(Worker& worker, SplitId id, FarmTime now);
+  void hear_piece(Worker& worker, const Lease& lease, Result result, FarmTime now);
+  void put_together(SplitId id, Worker& last, FarmTime now);
+  /// The pieces are no longer wanted.
+  void end_split(SplitId id, FarmTime now);
+  void drop_splits(FrameId frame, FarmTime now);
+  /// Its pieces of tiles that are not committed yet are to be rendered again.
+  void lose_pieces_of(const KnownWorker& worker);
 
   // Trials.
   std::uint32_t opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const;
@@ -174,6 +232,7 @@ struct Farm::State {
   // It is finished, and others have a lease of it, or it is on trial.
   bool reattach_as_check(Worker& worker, const Assignment& work, FarmTime now);
   bool reattach_as_copy(Worker& worker, const Assignment& work, FarmTime now);
+  bool reattach_as_whole(Worker& worker, const Assignment& work, FarmTime now);
 
   // Taking it back; none of them gives it out again.
   void end_lease(Worker& worker, LeaseId id, FarmTime now);
@@ -189,13 +248,17 @@ struct Farm::State {
 
   // Results.
   void deliver(Worker& worker, const Lease& lease, Result result, FarmTime now);
+  /// A tile, or a piece of one, that is made use of.
+  void credit(Worker& worker, std::uint64_t pixels);
   /// What a delivery tells of the worker; the time that is believed.
   FarmTime book(Worker& worker, const Lease& lease, const Result& result, FarmTime now);
   void accept(Job& job, JobFrame& frame, const Work& work, std::vector<PassImage> images, NameId by,
               FarmTime taken, FarmTime now);
   void finish(Job& job, JobFrame& frame, FarmTime now);
+  /// Of a piece when there is an area.
+  void take_result(WorkerId id, Result result, std::optional<Tile> area, FarmTime now);
   /// For a lease that has ended: an opinion when its tile is on trial, else compared with what others delivered.
-  void receive_late(Worker& worker, Result result, FarmTime now);
+  void receive_late(Worker& worker, Result result, std::optional<Tile> area, FarmTime now);
   void compare_late(Worker& worker, const Lease& lease, const Result& result);
   void refuse(Worker& worker, Job& job, const std::string& reason, FarmTime now);
 

@@ -117,7 +117,8 @@ JobView view_of(const Job& job, FarmTime now) {
   if (job.state == JobState::running) view.eta = job.pace.time_for(view.pixels_total - view.pixels_done, now);
   view.tiles_given_back = job.tiles_given_back, view.tiles_doubled = job.tiles_doubled;
   view.verification = spec.verification, view.tiles_checked = job.tiles_checked;
-  view.time_wasted = job.time_wasted;
+  view.tiles_shared = job.tiles_shared;
+  view.time_wasted = job.time_wasted, view.rays_wasted = job.rays_wasted;
   return view;
 }
 
@@ -144,7 +145,7 @@ FrameView view_of(const Job& job, std::uint32_t place, FarmTime now) {
   return view;
 }
 
-std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size film, const Work& work) {
+std::optional<std::string> fault_of(const std::vector<PassImage>& images, const Tile& area, PassSet passes) {
   PassSet delivered = 0;
   for (const PassImage& image : images) {
     if (image.pass < 0 || image.pass >= pass_count)
@@ -152,15 +153,15 @@ std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size f
     const auto bit = static_cast<PassSet>(1u << image.pass);
     if (delivered & bit) return "pass " + std::to_string(image.pass) + " came twice";
     delivered |= bit;
-    const std::size_t floats = 3 * std::size_t{pixel_count(tile_at(film, work.tile), image.pass)};
+    const std::size_t floats = 3 * std::size_t{pixel_count(area, image.pass)};
     if (image.rgb.size() != floats)
       return "pass " + std::to_string(image.pass) + " has " + std::to_string(image.rgb.size()) +
              " floats, not " + std::to_string(floats);
     if (std::ranges::any_of(image.rgb, [](float value) { return !std::isfinite(value); }))
       return "pass " + std::to_string(image.pass) + " has pixels that are no numbers";
   }
-  if (delivered != work.passes)
-    return "passes " + std::to_string(delivered) + " came, not " + std::to_string(work.passes);
+  if (delivered != passes)
+    return "passes " + std::to_string(delivered) + " came, not " + std::to_string(passes);
   return std::nullopt;
 }
 
@@ -184,19 +185,32 @@ void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
   job.pace.advance(now, job.pixels_done);
 }
 
+namespace {
+
+PassSet parts_by(const Canvas& canvas, std::uint32_t tile, NameId worker) {
+  const auto parts = canvas.parts.find(tile);
+  if (parts == canvas.parts.end()) return 0;
+  PassSet passes = 0;
+  for (const Canvas::Part& part : parts->second)
+    if (part.by == worker) passes |= part.passes;
+  return passes;
+}
+
+}  // namespace
+
 PassesLost delivered_by(JobId job, const JobFrame& frame, NameId worker) {
   PassesLost all{{job, frame.number}, {}, {}};
   const Canvas& canvas = *frame.canvas;
-  const auto known = std::ranges::find(canvas.deliverers, worker);
-  if (known == canvas.deliverers.end()) return all;
-  const auto by = static_cast<std::uint32_t>(known - canvas.deliverers.begin());
+  const auto by =
+      static_cast<std::uint32_t>(std::ranges::find(canvas.deliverers, worker) - canvas.deliverers.begin());
   for (std::uint32_t tile = 0; tile < canvas.deliveries.size(); ++tile) {
     PassSet passes = 0;
+    const PassSet parts = parts_by(canvas, tile, worker);
     for (int pass = 0; pass < pass_count; ++pass) {
       const auto bit = static_cast<PassSet>(1u << pass);
       const bool has_pixels = pixel_count(tile_at(canvas.size, tile), pass) > 0;
-      if (!has_pixels || !(canvas.schedule.done(tile) & bit) || canvas.deliveries[tile].by[pass] != by)
-        continue;
+      const bool is_its = canvas.deliveries[tile].by[pass] == by || (parts & bit) != 0;
+      if (!has_pixels || !(canvas.schedule.done(tile) & bit) || !is_its) continue;
       passes |= bit;
       all.counters += canvas.deliveries[tile].counters[pass];
     }
@@ -213,6 +227,9 @@ void lose(const Job& job, JobFrame& frame, const PassesLost& damage) {
       tile.counters[pass] = {};
       frame.thread_time -= std::exchange(tile.taken[pass], FarmTime{});
     }
+    if (const auto parts = frame.canvas->parts.find(work.tile); parts != frame.canvas->parts.end())
+      std::erase_if(parts->second,
+                    [&](const Canvas::Part& part) { return (part.passes & work.passes) != 0; });
     frame.canvas->schedule.undo(work);
     frame.pixels_done -= pixels_in(work, job.spec.settings);
   }
@@ -247,11 +264,11 @@ std::uint64_t pixels_in(const Work& work, const RenderSettings& settings) {
   return pixels;
 }
 
-std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile,
+std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile, const Tile& area,
                                    const std::vector<PassImage>& images) {
   for (const PassImage& image : images) {
     if (!(canvas.schedule.done(tile) & 1u << image.pass)) continue;
-    const std::vector<float> committed = canvas.film->pass_pixels(tile, image.pass);
+    const std::vector<float> committed = canvas.film->pass_pixels(area, image.pass);
     // Bytes, not numbers: -0 and 0 differ, a NaN equals itself.
     if (std::memcmp(committed.data(), image.rgb.data(), committed.size() * sizeof(float)) != 0)
       return canvas.deliverers[canvas.deliveries[tile].by[image.pass]];

@@ -45,6 +45,12 @@ struct Canvas {
   using Victims = std::map<std::string, Victim>;  // by identity
   Victims lost_at_first;                          // before any pixel was there
   std::map<std::uint32_t, Victims> lost_over;     // later, by the tile that they held longest
+  /// Who rendered pieces of passes that another brought to their end; not known after a restart.
+  struct Part {
+    PassSet passes = 0;
+    NameId by{};
+  };
+  std::map<std::uint32_t, std::vector<Part>> parts;  // by tile
 };
 
 /// Whose scene has come.
@@ -77,8 +83,9 @@ struct Job {
   FarmTime submitted{};
   std::optional<FarmTime> started, ended;
   FarmTime last_done{};  // of a frame
-  std::uint64_t tiles_given_back = 0, tiles_doubled = 0, tiles_checked = 0;
+  std::uint64_t tiles_given_back = 0, tiles_doubled = 0, tiles_shared = 0, tiles_checked = 0;
   FarmTime time_wasted{};
+  std::uint64_t rays_wasted = 0;
 };
 
 /// Calls visit(hash, bytes) for the frame's scene and assets, when it has them.
@@ -113,8 +120,8 @@ JobView view_of(const Job& job, FarmTime now);
 /// Of the frame in this place, also of one whose scene has not come.
 FrameView view_of(const Job& job, std::uint32_t place, FarmTime now);
 
-/// Why the images are not those that the work asks for; nothing when they are.
-std::optional<std::string> fault_of(const std::vector<PassImage>& images, Size film, const Work& work);
+/// Why the images are not those passes of a tile, or of a piece of one; nothing when they are.
+std::optional<std::string> fault_of(const std::vector<PassImage>& images, const Tile& area, PassSet passes);
 /// What a lease's work gave, without fault: by whom, and in how much thread time.
 struct Delivery {
   const Work& work;
@@ -133,8 +140,8 @@ void lose(const Job& job, JobFrame& frame, const PassesLost& damage);
 double expected_rays(const Job& job, const JobFrame& frame, const Work& work);
 /// The pixels that one work brings.
 std::uint64_t pixels_in(const Work& work, const RenderSettings& settings);
-/// Who delivered other pixels than these, if anybody did. Passes not there yet are not compared.
-std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile,
+/// Who delivered other pixels of this area of the tile than these, if anybody did. Passes not there yet are not compared.
+std::optional<NameId> contradicted(const Canvas& canvas, std::uint32_t tile, const Tile& area,
                                    const std::vector<PassImage>& images);
 
 }  // namespace rayfarm

@@ -9,7 +9,8 @@ namespace rayfarm {
 
 LocalThreads::LocalThreads(asio::io_context& io, LiveFarm& farm, unsigned threads, PrepareScene prepare)
     : farm_(farm), crew_(threads, std::move(prepare)) {
-  const WorkerInfo info{"master", "this PC", cpu_name(), RAYFARM_VERSION, threads, WorkerKind::local};
+  WorkerInfo info{"master", "this PC", cpu_name(), RAYFARM_VERSION, threads, WorkerKind::local};
+  info.takes_pieces = true;
   const auto send = [this](const ToWorker& message) {
     std::visit(
         [this](const auto& m) {

@@ -61,7 +61,8 @@ bool Farm::State::reattach(Worker& worker, const HeldTile& held, FarmTime now) {
     schedule.take(waiting);
     give(worker, *job, frame, waiting, now);
   } else if (!held.is_finished ||
-             !(reattach_as_check(worker, work, now) || reattach_as_copy(worker, work, now))) {
+             !(reattach_as_check(worker, work, now) || reattach_as_copy(worker, work, now) ||
+               reattach_as_whole(worker, work, now))) {
     return false;
   }
   worker.leases.at(LeaseId{last_lease}).is_reattached = true;
@@ -79,10 +80,22 @@ bool Farm::State::reattach_as_copy(Worker& worker, const Assignment& work, FarmT
     for (auto& [lease_id, lease] : holder.leases) {
       const bool is_it = lease.job == work.job && lease.frame == work.frame && lease.work.tile == work.tile &&
                          (lease.work.passes & ~work.passes) == 0;
-      if (!is_it || lease.twin || lease.is_check || holder.id == worker.id) continue;
+      if (!is_it || lease.twin || lease.is_check || lease.piece || lease.split || holder.id == worker.id)
+        continue;
       give_copy(holder, lease_id, worker, now);
       return true;
     }
+  return false;
+}
+
+bool Farm::State::reattach_as_whole(Worker& worker, const Assignment& work, FarmTime now) {
+  for (const auto& [id, split] : splits) {
+    const bool is_it = split.frame == FrameId{work.job, work.frame} && split.work.tile == work.tile &&
+                       (split.work.passes & ~work.passes) == 0;
+    if (!is_it || split.original) continue;
+    give_whole(worker, id, now);
+    return true;
+  }
   return false;
 }
 

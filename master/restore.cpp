@@ -155,6 +155,7 @@ void Farm::State::restore(FarmRecord record) {
             job.tiles_given_back = changed.tiles_given_back, job.tiles_doubled = changed.tiles_doubled;
             job.tiles_checked = changed.tiles_checked;
             job.time_wasted = changed.time_wasted, job.ended = changed.ended;
+            job.tiles_shared = changed.tiles_shared, job.rays_wasted = changed.rays_wasted;
           },
           [&](const SceneDropped& dropped) {
             frame_at(dropped.id, [](Job&, JobFrame& frame) { drop_data(frame); });

@@ -13,11 +13,15 @@ std::string words_for(const Result& result, const std::string& fault) {
          std::to_string(static_cast<std::uint64_t>(result.job)) + ": " + fault;
 }
 
-std::optional<std::string> lease_fault_of(const Result& result, const Lease& lease, const Job& job) {
+std::optional<std::string> lease_fault_of(const Result& result, std::optional<Tile> area, const Lease& lease,
+                                          const Job& job) {
   if (result.job != lease.job || result.frame != lease.frame || result.tile != lease.work.tile)
     return "its lease is for tile " + std::to_string(lease.work.tile) + " of " +
            title_of(job, *frame_of(job, lease.frame));
-  return fault_of(result.images, size_of(job.spec.settings), lease.work);
+  const Tile tile = tile_at(size_of(job.spec.settings), lease.work.tile);
+  const Tile wanted = lease.piece ? lease.piece->area : tile;
+  if (area.value_or(tile) != wanted) return "it is not of the area that its lease is for";
+  return fault_of(result.images, wanted, lease.work.passes);
 }
 
 RayCounters counters_of(const std::vector<PassImage>& images) {
@@ -35,42 +39,59 @@ std::string seconds(FarmTime time) {
 }  // namespace
 
 void Farm::receive(WorkerId id, Result result, FarmTime now) {
-  Worker* const here = state_->worker_here(id);
+  state_->take_result(id, std::move(result), std::nullopt, now);
+}
+
+void Farm::receive(WorkerId id, PieceResult piece, FarmTime now) {
+  state_->take_result(id, std::move(piece.result), piece.area, now);
+}
+
+void Farm::State::take_result(WorkerId id, Result result, std::optional<Tile> area, FarmTime now) {
+  Worker* const here = worker_here(id);
   if (!here) return;
   Worker& worker = *here;
   worker.has_spoken = true;
-  if (!worker.leases.contains(result.lease)) return state_->receive_late(worker, std::move(result), now);
+  if (!worker.leases.contains(result.lease)) return receive_late(worker, std::move(result), area, now);
 
   const Lease lease = worker.leases.at(result.lease);
-  if (const auto fault = lease_fault_of(result, lease, state_->jobs.at(lease.job))) {
-    state_->end_lease(worker, result.lease, now);
-    state_->denounce(worker, words_for(result, *fault), now);
+  if (const auto fault = lease_fault_of(result, area, lease, jobs.at(lease.job))) {
+    end_lease(worker, result.lease, now);
+    denounce(worker, words_for(result, *fault), now);
   }
   const LeaseId leased_as = result.lease;
   take_lease(worker, leased_as, now);
-  if (lease.twin) state_->end_twin(*lease.twin, now);
-  const std::uint32_t wanted = state_->opinions_wanted_on(worker, leased_as, lease);
+  if (lease.twin) end_twin(*lease.twin, now);
+  if (lease.split) end_split(*lease.split, now);
+  const std::uint32_t wanted = opinions_wanted_on(worker, leased_as, lease);
   if (lease.is_check || wanted > 1) {
-    state_->hear(worker, lease, wanted, std::move(result), now);
-    return state_->fill_all(now);
+    hear(worker, lease, wanted, std::move(result), now);
+    return fill_all(now);
   }
-  state_->deliver(worker, lease, std::move(result), now);
-  state_->fill(worker, now);
-  if (lease.twin) state_->fill(state_->workers.at(lease.twin->worker), now);
+  if (lease.piece)
+    hear_piece(worker, lease, std::move(result), now);
+  else
+    deliver(worker, lease, std::move(result), now);
+  if (lease.split || lease.piece) return fill_all(now);
+  fill(worker, now);
+  if (lease.twin) fill(workers.at(lease.twin->worker), now);
 }
 
 void Farm::State::deliver(Worker& worker, const Lease& lease, Result result, FarmTime now) {
   Job& job = jobs.at(lease.job);
   const FarmTime taken = book(worker, lease, result, now);
+  credit(worker, lease.samples / job.spec.settings.spp);
   accept(job, frame_at(job, lease.frame), lease.work, std::move(result.images), worker.name, taken, now);
 }
 
 FarmTime Farm::State::book(Worker& worker, const Lease& lease, const Result& result, FarmTime now) {
   const FarmTime taken = believed_time(lease, result.seconds, now);
   if (!lease.is_reattached) learn_speed(worker, lease, counters_of(result.images).rays(), taken);
-  ++worker.tiles;
-  worker.pixels += lease.samples / jobs.at(lease.job).spec.settings.spp;
   return taken;
+}
+
+void Farm::State::credit(Worker& worker, std::uint64_t pixels) {
+  ++worker.tiles;
+  worker.pixels += pixels;
 }
 
 void Farm::State::accept(Job& job, JobFrame& frame, const Work& work, std::vector<PassImage> images,
@@ -100,7 +121,7 @@ void Farm::State::finish(Job& job, JobFrame& frame, FarmTime now) {
   end(job, JobState::done, now);
 }
 
-void Farm::State::receive_late(Worker& worker, Result result, FarmTime now) {
+void Farm::State::receive_late(Worker& worker, Result result, std::optional<Tile> area, FarmTime now) {
   if (worker.info.kind == WorkerKind::remote && known_workers.at(worker.identity).is_banned) return;
   const auto called_off = worker.called_off.extract(result.lease);
   if (called_off.empty() && result.lease <= worker.forgotten) return;
@@ -109,9 +130,9 @@ void Farm::State::receive_late(Worker& worker, Result result, FarmTime now) {
   Lease& lease = called_off.mapped();
   const auto job = jobs.find(lease.job);
   if (job == jobs.end()) return;  // there is nothing left to compare it with
-  if (const auto fault = lease_fault_of(result, lease, job->second))
+  if (const auto fault = lease_fault_of(result, area, lease, job->second))
     denounce(worker, words_for(result, *fault), now);
-  const std::optional<TrialId> trial = unheard_trial(worker, lease);
+  const std::optional<TrialId> trial = lease.piece ? std::nullopt : unheard_trial(worker, lease);
   if (!trial) return compare_late(worker, lease, result);
   lease.work.passes = trial->passes;
   lease.samples = pixels_in(lease.work, job->second.spec.settings) * job->second.spec.settings.spp;
@@ -124,7 +145,9 @@ void Farm::State::compare_late(Worker& worker, const Lease& lease, const Result&
   const Job& job = jobs.at(lease.job);
   const JobFrame* frame = frame_of(job, lease.frame);
   if (!frame->canvas || !frame->canvas->film) return;  // it is gone, or not worth the reading
-  const std::optional<NameId> other = contradicted(*frame->canvas, result.tile, result.images);
+  const Tile tile = tile_at(size_of(job.spec.settings), lease.work.tile);
+  const std::optional<NameId> other =
+      contradicted(*frame->canvas, result.tile, lease.piece ? lease.piece->area : tile, result.images);
   if (!other || worker.was_contradicted) return;
   worker.was_contradicted = true;  // one line for each connection: a broken machine must not flood the log
   warn("workers " + worker.info.name + " and " + names[static_cast<std::size_t>(*other)] +

@@ -313,9 +313,11 @@ void Sessions::admit(Session& session, const Hello& hello) {
   const auto objection =
       farm_.apply([&](Farm& farm, FarmTime) { return farm.objection_to(name, certificate); });
   if (objection) return refuse(session, *objection);
-  const WorkerInfo info{name,          session.connection.peer(), hello.cpu,     hello.software,
-                        hello.threads, WorkerKind::remote,        hello.process, certificate};
   const Versions versions = *common_versions(hello.versions, {});
+  const bool takes_pieces = (versions.capabilities & can_take_pieces) != 0;
+  const WorkerInfo info{name,          session.connection.peer(), hello.cpu,     hello.software,
+                        hello.threads, WorkerKind::remote,        hello.process, certificate,
+                        takes_pieces};
   const auto send = [&session, this, versions](ToWorker message) {
     if (const auto* refused = std::get_if<Refused>(&message)) return refuse(session, refused->reason);
     if (auto* welcome = std::get_if<Welcome>(&message)) welcome->versions = versions;

@@ -22,6 +22,10 @@ std::vector<std::size_t> greatest_first(std::span<const Value> values, double Va
 
 }  // namespace
 
+std::vector<std::size_t> latest_first(std::span<const Straggler> stragglers) {
+  return greatest_first(stragglers, &Straggler::time_left);
+}
+
 double expected_seconds(double cost, double speed) {
   return cost > 0 && speed > 0 ? cost / speed : seconds_of_unknown;
 }
@@ -59,7 +63,7 @@ std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<con
   for (const IdleWorker& worker : idle) threads.push_back(worker.threads);
   std::size_t first = 0;  // in `fastest`: those before have no thread free
   std::vector<Copy> copies;
-  for (const std::size_t s : greatest_first(stragglers, &Straggler::time_left)) {
+  for (const std::size_t s : latest_first(stragglers)) {
     while (first < fastest.size() && threads[fastest[first]] == 0) ++first;
     if (first == fastest.size()) break;
     for (std::size_t i = first; i < fastest.size(); ++i) {

@@ -33,9 +33,12 @@ bool is_stuck(const HeldWork& work);
 /// Work of one job that one worker holds, and no other.
 struct Straggler {
   std::uint64_t holder = 0;
-  double time_left = 0;  // seconds
-  double cost = 0;       // rays; 0: unknown
+  double time_left = 0;           // seconds
+  double cost = 0;                // rays; 0: unknown
+  std::optional<double> spent{};  // seconds since it was begun; none: it waits for a thread
 };
+/// Their places in the list.
+std::vector<std::size_t> latest_first(std::span<const Straggler> stragglers);
 struct IdleWorker {
   std::uint64_t id = 0;
   double speed = 0;           // rays a second of one thread; 0: unknown

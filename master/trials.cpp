@@ -43,6 +43,12 @@ bool may_judge(const Worker& worker, const TrialId& id, const Trial& trial) {
   return may_work(worker) && !refuses(worker, id.frame.job) && is_unheard(worker, trial);
 }
 
+/// It is not believed.
+void waste(Job& job, const Opinion& opinion) {
+  job.time_wasted += opinion.taken;
+  for (const PassImage& image : opinion.images) job.rays_wasted += image.counters.rays();
+}
+
 }  // namespace
 
 std::uint32_t Farm::State::opinions_wanted_on(const Worker& worker, LeaseId id, const Lease& lease) const {
@@ -179,6 +185,7 @@ void Farm::State::hear(Worker& worker, const Lease& lease, std::uint32_t wanted,
   forget_asked(trial, worker.id);
   ++revision;
   const FarmTime taken = book(worker, lease, result, now);
+  credit(worker, lease.samples / jobs.at(lease.job).spec.settings.spp);
   const bool is_final = worker.info.kind == WorkerKind::local;
   trial.opinions.push_back(
       {worker.name, worker.identity, worker.info.process, is_final, std::move(result.images), taken});
@@ -197,7 +204,7 @@ void Farm::State::end_trial(const TrialId& id, FarmTime now) {
 void Farm::State::end_check(const Trial::Asked& asked, FarmTime now) {
   Worker& worker = workers.at(asked.worker);
   const Lease lease = call_off(worker, asked.lease, now);
-  jobs.at(lease.job).time_wasted += time_wasted(lease, now);
+  waste(jobs.at(lease.job), worker, lease, now);
   worker.send(Revoke{{asked.lease}});
 }
 
@@ -221,7 +228,7 @@ void Farm::State::settle_trial(const TrialId& id, std::size_t right, FarmTime no
                " and others say otherwise",
            name);
       lies.push_back(&opinion);
-      job.time_wasted += opinion.taken;
+      rayfarm::waste(job, opinion);
     }
   }
   for (const Opinion* lie : lies)
@@ -259,7 +266,7 @@ void Farm::State::strike_opinions(const std::string& identity, FarmTime now) {
     const auto own = std::ranges::find(trial.opinions, identity, &Opinion::identity);
     if (own == trial.opinions.end()) continue;
     Job& job = jobs.at(id.frame.job);
-    job.time_wasted += own->taken;
+    rayfarm::waste(job, *own);
     touch(job);
     trial.opinions.erase(own);
     if (!trial.opinions.empty()) {
@@ -272,6 +279,7 @@ void Farm::State::strike_opinions(const std::string& identity, FarmTime now) {
 }
 
 std::size_t Farm::State::lose_all_of(const KnownWorker& worker, FarmTime now) {
+  lose_pieces_of(worker);
   std::size_t tiles = 0;
   for (auto& [id, job] : jobs) {
     if (has_ended(job)) continue;

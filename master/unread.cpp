@@ -42,7 +42,7 @@ bool Farm::State::read_film(Job& job, JobFrame& frame) {
       if (commit.tile >= canvas.deliveries.size() ||
           (canvas.schedule.done(commit.tile) & ~film->passes_of(commit.tile) & commit.passes) !=
               commit.passes ||
-          fault_of(commit.images, size, {commit.tile, commit.passes}))
+          fault_of(commit.images, tile_at(size, commit.tile), commit.passes))
         return;
       for (const PassImage& image : commit.images) film->put(commit.tile, image);
       counters += commit.counters;
@@ -87,6 +87,7 @@ void Farm::State::lose_passes(Job& job, JobFrame& frame, const PassesLost& lost)
   job.pixels_done += frame.pixels_done;
   const FarmTime wasted = taken - frame.thread_time;
   job.thread_time -= wasted, job.time_wasted += wasted;
+  job.rays_wasted += lost.counters.rays();
   touch(job);
   job.counters = job.counters - lost.counters;
   if (frame.canvas->film && frame.canvas->film->pixels_done() != frame.pixels_done) {

@@ -89,7 +89,11 @@ void assign(Worker& worker, LeaseId id, Lease lease) {
   if (worker.leases.size() < worker.info.threads) lease.begun = lease.given;
   worker.leases.emplace(id, lease);
   worker.samples_held += lease.samples;
-  worker.send(Assignment{id, lease.job, lease.frame, lease.work.tile, lease.work.passes});
+  const Assignment assignment{id, lease.job, lease.frame, lease.work.tile, lease.work.passes};
+  if (lease.piece)
+    worker.send(PieceAssignment{assignment, lease.piece->area});
+  else
+    worker.send(assignment);
 }
 
 Lease take_lease(Worker& worker, LeaseId id, FarmTime now) {
@@ -135,6 +139,12 @@ double tracing_speed(const Worker& worker, JobId job) {
   const auto known = worker.jobs.find(job);
   const double of_job = known == worker.jobs.end() ? 0 : known->second.tracing.per_second();
   return of_job > 0 ? of_job : worker.tracing.per_second();
+}
+
+double expected_speed(const Worker& worker, const Job& job) {
+  if (const double own = tracing_speed(worker, job.id); own > 0) return own;
+  const double seconds = std::chrono::duration<double>(job.thread_time).count();
+  return seconds > 0 ? static_cast<double>(job.counters.rays()) / seconds : 0;
 }
 
 FarmTime time_wasted(const Lease& lease, FarmTime now) {

@@ -13,6 +13,9 @@
 
 namespace rayfarm {
 
+/// A tile that several share.
+enum class SplitId : std::uint64_t {};
+
 /// Work that one worker was asked to do; good for one result.
 struct Lease {
   JobId job{};
@@ -27,8 +30,16 @@ struct Lease {
     LeaseId lease{};
   };
   std::optional<Twin> twin{};
-  bool is_check = false;       // an opinion on a trial is asked for
-  bool is_reattached = false;  // the work was begun before the lease: its age tells nothing of the speed
+  /// A piece of a tile that is shared.
+  struct Piece {
+    SplitId split{};
+    std::size_t place = 0;
+    Tile area{};
+  };
+  std::optional<Piece> piece{};    // none: the whole tile
+  std::optional<SplitId> split{};  // which others render in pieces meanwhile
+  bool is_check = false;           // an opinion on a trial is asked for
+  bool is_reattached = false;      // the work was begun before the lease: its age tells nothing of the speed
 };
 
 struct Worker {
@@ -92,6 +103,8 @@ FarmTime believed_time(const Lease& lease, double seconds, FarmTime now);
 void learn_speed(Worker& worker, const Lease& lease, std::uint64_t rays, FarmTime taken);
 /// Rays a second of one of its threads, with this job if that is known; 0: not known.
 double tracing_speed(const Worker& worker, JobId job);
+/// The same, or the job's mean while nothing is known of the worker.
+double expected_speed(const Worker& worker, const Job& job);
 /// How long a thread was busy with a lease that ended without being of use.
 FarmTime time_wasted(const Lease& lease, FarmTime now);
 

@@ -89,6 +89,9 @@ void WorkerSession::handle(const ToWorker& message) {
   } else if (const auto* assignment = std::get_if<Assignment>(&message)) {
     held_.insert(assignment->lease);
     crew_.take(*assignment);
+  } else if (const auto* piece = std::get_if<PieceAssignment>(&message)) {
+    held_.insert(piece->work.lease);
+    crew_.take(*piece);
   } else if (const auto* revoke = std::get_if<Revoke>(&message)) {
     for (const LeaseId lease : revoke->leases) held_.erase(lease);
     crew_.take(*revoke);
@@ -121,6 +124,7 @@ void WorkerSession::offer_kept(const Versions& spoken) {
 
 void WorkerSession::answer(const ToMaster& message) {
   if (const auto* result = std::get_if<Result>(&message)) held_.erase(result->lease);
+  if (const auto* piece = std::get_if<PieceResult>(&message)) held_.erase(piece->result.lease);
   if (const auto* given = std::get_if<GiveBack>(&message)) {
     for (const LeaseId lease : given->leases) held_.erase(lease);
     if (!given->reason.empty()) spdlog::warn("gave a tile back: {}", given->reason);

@@ -28,6 +28,8 @@ template <>
 constexpr std::uint32_t payload_limit<Result> = tile_side* tile_side * 3 * sizeof(float) +
                                                 2048;  // + what zstd adds
 template <>
+constexpr std::uint32_t payload_limit<PieceResult> = payload_limit<Result>;
+template <>
 constexpr std::uint32_t payload_limit<GiveBack> = 1u << 20;  // 130,000 leases
 template <>
 constexpr std::uint32_t payload_limit<Revoke> = 1u << 20;
@@ -74,6 +76,11 @@ SharedBytes write_payload(Bytes& out, const Result& result) {
   return nullptr;
 }
 
+SharedBytes write_payload(Bytes& out, const PieceResult& piece) {
+  encode_to(out, piece.area);
+  return write_payload(out, piece.result);
+}
+
 void expect_nothing(ByteView rest) {
   if (!rest.empty()) throw CodecError("the message is followed by something else");
 }
@@ -104,8 +111,7 @@ void read_data(ByteView payload, Data& message) {
 void read_payload(ByteView payload, SceneData& message) { read_data(payload, message); }
 void read_payload(ByteView payload, AssetData& message) { read_data(payload, message); }
 
-void read_payload(ByteView payload, Result& result) {
-  ByteSource source(payload);
+void read_result(ByteSource& source, Result& result) {
   const auto head = decode_from<ResultHead>(source);
   std::size_t count = 0;
   for (const ResultHead::Image& image : head.images) count += image.floats;
@@ -116,6 +122,15 @@ void read_payload(ByteView payload, Result& result) {
     result.images.push_back({image.pass, {at, at + image.floats}, image.counters});
     at += image.floats;
   }
+}
+void read_payload(ByteView payload, Result& result) {
+  ByteSource source(payload);
+  read_result(source, result);
+}
+void read_payload(ByteView payload, PieceResult& piece) {
+  ByteSource source(payload);
+  piece.area = decode_from<Tile>(source);
+  read_result(source, piece.result);
 }
 
 // Frames. --------------------------------------------------------------------------------------------------

@@ -123,6 +123,16 @@ void serialize(Archive& archive, Assignment& m) {
     throw CodecError("an assignment names no pass, or one that does not exist");
 }
 template <class Archive>
+void serialize(Archive& archive, Tile& t) {
+  archive(t.x0, t.y0, t.x1, t.y1);
+  if (t.x0 >= t.x1 || t.y0 >= t.y1 || t.x1 - t.x0 > tile_side || t.y1 - t.y0 > tile_side)
+    throw CodecError("an area cannot be that of a piece of a tile");
+}
+template <class Archive>
+void serialize(Archive& archive, PieceAssignment& m) {
+  archive(m.work, m.area);
+}
+template <class Archive>
 void serialize(Archive& archive, HeldTile& t) {
   archive(t.work);
   boolean(archive, t.is_finished);

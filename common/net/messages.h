@@ -10,6 +10,8 @@
 //   master -> worker  Assignment    render these passes of this tile
 //   worker -> master  Result        the passes, pixel for pixel, with their exact counters; ends the lease
 //   worker -> master  GiveBack      leases it will not finish: clean stop, or it cannot render the job (why)
+//   master -> worker  PieceAssignment  the same of a piece of a tile, when both can share tiles
+//   worker -> master  PieceResult   its pixels and counters; a piece is not kept over the end of a conversation
 //   master -> worker  Revoke        stop these leases now; nothing is answered for them
 //   master -> worker  FrameEnd      forget the frame, and its scene when no other frame of it is left
 //   master -> worker  AssetEnd      forget these assets: no job that goes on has them
@@ -61,12 +63,13 @@ struct FrameId {
 };
 
 // What one may know and another not: a bit each.
-constexpr std::uint64_t can_reattach = 1;  // Holds, Unneeded
+constexpr std::uint64_t can_reattach = 1;     // Holds, Unneeded
+constexpr std::uint64_t can_take_pieces = 2;  // PieceAssignment, PieceResult
 
 /// What a side speaks. Both use the newest protocol, and the capabilities, that they have in common.
 struct Versions {
   std::uint16_t newest = protocol_version, oldest = oldest_protocol_version;
-  std::uint64_t capabilities = can_reattach;
+  std::uint64_t capabilities = can_reattach | can_take_pieces;
   bool operator==(const Versions&) const = default;
 };
 /// None when there is no protocol that both speak.
@@ -143,6 +146,18 @@ struct Result {
   double seconds = 0;  // of one thread, wall time
   bool operator==(const Result&) const = default;
 };
+/// Of the tile only this area, which is given in pixels of the film: a piece whose corner lies on the grid of the tile's
+/// coarsest pass.
+struct PieceAssignment {
+  Assignment work;
+  Tile area{};
+  bool operator==(const PieceAssignment&) const = default;
+};
+struct PieceResult {
+  Result result;  // the passes hold the area's pixels
+  Tile area{};
+  bool operator==(const PieceResult&) const = default;
+};
 /// Work of a lease that ended with its conversation.
 struct HeldTile {
   Assignment work;
@@ -181,7 +196,7 @@ struct Goodbye {
 
 // The place in the list is a message's number on the wire: new ones come at the end.
 using ToWorker = std::variant<Welcome, Refused, SceneData, FrameStart, Assignment, Revoke, FrameEnd,
-                              Heartbeat, Goodbye, AssetData, AssetEnd, Paired, Unneeded>;
-using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye, Join, Holds>;
+                              Heartbeat, Goodbye, AssetData, AssetEnd, Paired, Unneeded, PieceAssignment>;
+using ToMaster = std::variant<Hello, Result, GiveBack, Heartbeat, Goodbye, Join, Holds, PieceResult>;
 
 }  // namespace rayfarm

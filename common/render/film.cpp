@@ -64,10 +64,13 @@ void Film::take_out(std::uint32_t tile, PassSet passes) {
 
 std::vector<float> Film::pass_pixels(std::uint32_t tile, int pass) const {
   assert(done_[tile] & 1u << pass && "the pass must be there");
-  const Tile area = tile_at(size_, tile);
-  std::vector<float> rgb(3 * std::size_t{pixel_count(area, pass)});
+  return pass_pixels(tile_at(size_, tile), pass);
+}
+
+std::vector<float> Film::pass_pixels(const Tile& piece, int pass) const {
+  std::vector<float> rgb(3 * std::size_t{pixel_count(piece, pass)});
   float* value = rgb.data();
-  for_each_pixel(area, pass, [&](std::uint32_t x, std::uint32_t y) {
+  for_each_pixel(piece, pass, [&](std::uint32_t x, std::uint32_t y) {
     std::copy_n(&rgb_[float_index(size_, x, y)], 3, value);
     value += 3;
   });

@@ -33,6 +33,8 @@ class Film {
   std::uint64_t pixels_done() const { return pixels_done_; }
   /// The pixels of one pass again, in travelling order; the pass must be there.
   std::vector<float> pass_pixels(std::uint32_t tile, int pass) const;
+  /// Those of them that are in a piece of the tile.
+  std::vector<float> pass_pixels(const Tile& piece, int pass) const;
   /// Row-major, width * height * 3, linear Rec. 709; y grows downwards. Pixels not there yet are black.
   const ZeroedVector<float>& rgb() const { return rgb_; }
   /// As rgb(), but a pixel not there yet shows the nearest coarser one up-left of it in its tile, if any.

@@ -20,5 +20,9 @@ std::optional<std::vector<PassImage>> render_tile(const World& world, const Rend
                                                   std::uint32_t tile, PassSet passes,
                                                   const std::function<bool()>& stop,
                                                   PixelWatch* watch = nullptr);
+/// The same of any part of the film whose corner lies on the coarsest pass's grid: a tile, or a piece of one.
+std::optional<std::vector<PassImage>> render_area(const World& world, const RenderSettings& settings,
+                                                  const Tile& area, PassSet passes,
+                                                  const std::function<bool()>& stop);
 
 }  // namespace rayfarm

@@ -9,20 +9,19 @@
 
 namespace rayfarm {
 
-/// As render_tile() (render.h), by a tracer whose observer counts, and with its watch if it has one.
+/// As render_area() (render.h), by a tracer whose observer counts, and with its watch if it has one.
 template <class Observer>
 std::optional<std::vector<PassImage>> render_passes(Tracer<Observer>& tracer, const RenderSettings& settings,
-                                                    std::uint32_t tile_number, PassSet passes,
+                                                    const Tile& area, PassSet passes,
                                                     const std::function<bool()>& stop) {
-  const Tile tile = tile_at({settings.width, settings.height}, tile_number);
   std::vector<PassImage> images;
   bool stopped = false;
   for (int pass = 0; pass < pass_count; ++pass) {
     if (!(passes >> pass & 1)) continue;
     PassImage image{pass, {}, {}};
-    image.rgb.reserve(3 * std::size_t{pixel_count(tile, pass)});
+    image.rgb.reserve(3 * std::size_t{pixel_count(area, pass)});
     tracer.observer.counters = {};
-    for_each_pixel(tile, pass, [&](std::uint32_t x, std::uint32_t y) {
+    for_each_pixel(area, pass, [&](std::uint32_t x, std::uint32_t y) {
       if (stopped) return;
       if (tracer.watch()) tracer.watch()->pixel_begins(tracer.observer.counters);
       const std::optional<PixelSum> sum = pixel_sum(tracer, settings, Pixel{x, y}, stop);

@@ -17,6 +17,12 @@ std::int64_t distance_to_centre(Size film, const Tile& tile) {
 
 }  // namespace
 
+bool is_piece(const Tile& area, const Tile& tile) {
+  const bool is_within = tile.x0 <= area.x0 && area.x1 <= tile.x1 && tile.y0 <= area.y0 && area.y1 <= tile.y1;
+  const bool is_on_grid = area.x0 % pass_stride[0] == 0 && area.y0 % pass_stride[0] == 0;
+  return is_within && is_on_grid && area.x0 < area.x1 && area.y0 < area.y1;
+}
+
 std::uint32_t tile_count(Size film) {
   return ceil_div(film.width, tile_side) * ceil_div(film.height, tile_side);
 }

@@ -34,6 +34,9 @@ struct Tile {
   bool operator==(const Tile&) const = default;
 };
 
+/// A part of a tile with passes of its own, which are parts of the tile's: its corner lies on the coarsest grid.
+bool is_piece(const Tile& area, const Tile& tile);
+
 /// Number of tiles of a film; tile numbers run row by row from the upper left.
 std::uint32_t tile_count(Size film);
 Tile tile_at(Size film, std::uint32_t number);
@@ -41,7 +44,7 @@ Tile tile_at(Size film, std::uint32_t number);
 std::vector<std::uint32_t> centre_first(Size film);
 
 /// Calls visit(y, first, step) for the rows of one pass: its pixels are at x = first, first + step, ... <
-/// tile.x1. The tile must be a film's: its corner lies on the coarsest grid.
+/// tile.x1. The tile must be a film's, or a piece of one: its corner lies on the coarsest grid.
 template <class Visit>
 void for_each_row(const Tile& tile, int pass, Visit&& visit) {
   const std::uint32_t stride = pass_stride[pass], coarser = 2 * stride;

@@ -10,6 +10,8 @@
 namespace rayfarm {
 namespace {
 
+Size size_of(const RenderSettings& settings) { return {settings.width, settings.height}; }
+
 FrameId frame_of(const Assignment& assignment) { return {assignment.job, assignment.frame}; }
 
 constexpr std::size_t most_kept = 2048;    // 49 kB each
@@ -17,7 +19,7 @@ constexpr std::size_t most_answered = 64;  // of a burst that the master had not
 
 /// Empty unless the assignment cannot be rendered.
 std::string fault_of(const Assignment& assignment, const RenderSettings& settings) {
-  const std::uint32_t tiles = tile_count({settings.width, settings.height});
+  const std::uint32_t tiles = tile_count(size_of(settings));
   if (assignment.tile < tiles) return {};
   return "there is no tile " + std::to_string(assignment.tile) + ", the picture has " + std::to_string(tiles);
 }
@@ -104,19 +106,26 @@ void Crew::take(const FrameStart& start) {
 
 void Crew::take(const Assignment& assignment) {
   const Lock lock(mutex_);
-  if (!taking_) return give_back(assignment.lease, "");
-  const auto frame = frames_.find(frame_of(assignment));
-  if (frame == frames_.end()) return give_back(assignment.lease, "its job was never started");
-  if (std::string fault = fault_of(assignment, frame->second->settings); !fault.empty())
-    return give_back(assignment.lease, std::move(fault));
-  if (const TaskPtr task = take_kept(assignment, *frame->second)) {
-    task->assignment = assignment, task->frame = frame->second, task->is_kept = false;
+  const std::shared_ptr<const Frame> frame = frame_for(assignment);
+  if (!frame) return;
+  if (const TaskPtr task = take_kept(assignment, *frame)) {
+    task->assignment = assignment, task->frame = frame, task->is_kept = false;
     tasks_[assignment.lease] = task;
     if (task->progress == Progress::finished) finish(task);
     return;
   }
-  tasks_[assignment.lease] = waiting_.emplace_back(std::make_shared<Task>(assignment, frame->second));
-  changed_.notify_one();
+  begin(std::make_shared<Task>(assignment, frame, tile_at(size_of(frame->settings), assignment.tile)));
+}
+
+void Crew::take(const PieceAssignment& piece) {
+  const Lock lock(mutex_);
+  const std::shared_ptr<const Frame> frame = frame_for(piece.work);
+  if (!frame) return;
+  if (!is_piece(piece.area, tile_at(size_of(frame->settings), piece.work.tile)))
+    return give_back(piece.work.lease, "the piece is none of the tile's");
+  const auto task = std::make_shared<Task>(piece.work, frame, piece.area);
+  task->is_piece = true;
+  begin(task);
 }
 
 void Crew::take(const Revoke& revoke) {
@@ -186,6 +195,22 @@ std::vector<LeaseId> Crew::abandon() {
 
 // Under the lock. ------------------------------------------------------------------------------------------
 
+std::shared_ptr<const Crew::Frame> Crew::frame_for(const Assignment& assignment) {
+  const auto frame = frames_.find(frame_of(assignment));
+  std::string fault;
+  if (taking_)
+    fault =
+        frame == frames_.end() ? "its job was never started" : fault_of(assignment, frame->second->settings);
+  if (taking_ && fault.empty()) return frame->second;
+  give_back(assignment.lease, std::move(fault));
+  return nullptr;
+}
+
+void Crew::begin(const TaskPtr& task) {
+  tasks_[task->assignment.lease] = waiting_.emplace_back(task);
+  changed_.notify_one();
+}
+
 void Crew::give_back(LeaseId lease, std::string reason) { answer_(GiveBack{{lease}, std::move(reason)}); }
 
 void Crew::discard(std::shared_ptr<void> what) {
@@ -202,8 +227,9 @@ void Crew::drop(const TaskPtr& task) {
 
 /// The leases end, the work goes on.
 void Crew::keep_all() {
-  for (const TaskPtr& task : answered_) kept_.push_back(task);
-  for (const auto& [lease, task] : tasks_) kept_.push_back(task);
+  const auto keep = [this](const TaskPtr& task) { task->is_piece ? drop(task) : kept_.push_back(task); };
+  for (const TaskPtr& task : answered_) keep(task);
+  for (const auto& [lease, task] : tasks_) keep(task);
   answered_.clear();
   tasks_.clear();
   for (const TaskPtr& task : kept_) task->is_kept = true;
@@ -234,6 +260,10 @@ void Crew::finish(const TaskPtr& task) {
   Result result{a.lease, a.job, a.frame, a.tile, {}, task->seconds};
   for (const PassImage& image : task->images)  // a lost master may have asked for more
     if (a.passes >> image.pass & 1) result.images.push_back(image);
+  if (task->is_piece) {
+    discard(task);
+    return answer_(PieceResult{std::move(result), task->area});
+  }
   answered_.push_back(task);
   if (answered_.size() > most_answered) {
     discard(answered_.front());
@@ -332,7 +362,7 @@ void Crew::render(Lock& lock, const TaskPtr& task) {
   std::string fault;
   const auto begun = std::chrono::steady_clock::now();
   try {
-    images = frame->scene->renderer(frame->settings, assignment.tile, assignment.passes,
+    images = frame->scene->renderer(frame->settings, task->area, assignment.passes,
                                     [&] { return task->stop.load(std::memory_order_relaxed); });
   } catch (const std::exception& error) {
     fault = error.what();

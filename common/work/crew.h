@@ -26,7 +26,7 @@ namespace rayfarm {
 ///
 /// What was held when the master was lost goes on being rendered, and is kept: an assignment of the next master that asks
 /// for the same pixels, by the content of scene and settings, is answered with it. So are the last few results, which
-/// the old master may not have got.
+/// the old master may not have got. Pieces of tiles are not kept: they are small.
 class Crew {
  public:
   /// Called by the crew's threads, one at a time; must return soon and not call the crew.
@@ -51,6 +51,7 @@ class Crew {
   void take(const SceneData& scene);
   void take(const FrameStart& start);
   void take(const Assignment& assignment);
+  void take(const PieceAssignment& piece);
   void take(const Revoke& revoke);
   void take(const FrameEnd& end);
   void take(const Unneeded& unneeded);
@@ -85,12 +86,15 @@ class Crew {
   struct Task {
     Assignment assignment;
     std::shared_ptr<const Frame> frame;
-    bool is_kept = false;  // its master is lost
+    Tile area;              // to be rendered: the tile, or
+    bool is_piece = false;  // a piece of it
+    bool is_kept = false;   // its master is lost
     Progress progress = Progress::waiting;
     std::atomic<bool> stop{false};
     std::vector<PassImage> images{};  // once it is finished
     double seconds = 0;
-    Task(const Assignment& a, std::shared_ptr<const Frame> of) : assignment(a), frame(std::move(of)) {}
+    Task(const Assignment& a, std::shared_ptr<const Frame> of, const Tile& of_it)
+        : assignment(a), frame(std::move(of)), area(of_it) {}
   };
   using TaskPtr = std::shared_ptr<Task>;
   using Lock = std::unique_lock<std::mutex>;
@@ -102,6 +106,9 @@ class Crew {
   void render(Lock& lock, const TaskPtr& task);
   void finish(const TaskPtr& task);
   void fail(const TaskPtr& task, std::string reason);
+  /// The frame of an assignment that is to be rendered; null when its lease was given back.
+  std::shared_ptr<const Frame> frame_for(const Assignment& assignment);
+  void begin(const TaskPtr& task);
   void give_back(LeaseId lease, std::string reason);
   void discard(std::shared_ptr<void> what);
   void drop(const TaskPtr& task);

@@ -8,9 +8,9 @@ namespace rayfarm {
 
 TileRenderer prepare_scene(Scene scene) {
   const auto world = std::make_shared<const World>(std::move(scene));
-  return [world](const RenderSettings& settings, std::uint32_t tile, PassSet passes,
+  return [world](const RenderSettings& settings, const Tile& area, PassSet passes,
                  const std::function<bool()>& stop) {
-    return render_tile(*world, settings, tile, passes, stop);
+    return render_area(*world, settings, area, passes, stop);
   };
 }
 

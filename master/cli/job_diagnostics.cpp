@@ -106,6 +106,7 @@ void print_job_statistics(JobNumber job, const std::optional<std::uint32_t>& fra
   if (so_far["seconds"].contains("wasted")) phases.push_back("wasted");
   std::printf("%s\n\n%s\n%s\n", headline(so_far["pixels"].dump(), so_far["samples_per_pixel"]).c_str(),
               table_of_rays(so_far).c_str(), table_of_times(so_far["seconds"], phases).c_str());
+  if (so_far.contains("rays_wasted")) std::printf("%s rays wasted\n\n", so_far["rays_wasted"].dump().c_str());
   std::fflush(stdout);
   std::fputs(detail_text(waits ? whole()["detail"] : so_far["detail"]).c_str(), stdout);
 }

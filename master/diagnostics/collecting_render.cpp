@@ -78,7 +78,8 @@ CollectingRender::Images CollectingRender::render_tile(std::uint32_t tile, PassS
   CloudPart part(*cloud_, ranks_[tile]);
   Tracer<WithCloud<CountingObserver>> tracer(world_, settings_, {{}, &part});
   tracer.set_watch(watching);
-  Images images = render_passes(tracer, settings_, tile, passes, stop);
+  Images images =
+      render_passes(tracer, settings_, tile_at({settings_.width, settings_.height}, tile), passes, stop);
   if (images)
     part.end();
   else

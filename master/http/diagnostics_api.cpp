@@ -49,7 +49,9 @@ struct RayFacts {
   std::uint64_t pixels = 0;
   RayCounters counters;
   FarmTime waited{}, elapsed{}, thread_time{};
-  std::optional<FarmTime> wasted{};  // known of jobs only
+  // Known of jobs only.
+  std::optional<FarmTime> wasted{};
+  std::uint64_t rays_wasted = 0;
 };
 
 /// Of a frame, or of all of the job's when none is named.
@@ -60,8 +62,8 @@ RayFacts ray_facts(const FarmDoor& farm, JobId id, std::optional<std::uint32_t> 
       return RayFacts{true,         frame.pixels_done, frame.counters,
                       frame.waited, frame.elapsed,     frame.thread_time};
     const JobView job = *f.job(id, now);
-    return RayFacts{job.frames.count() == 1, job.pixels_done, job.counters, job.waited, job.elapsed,
-                    job.thread_time,         job.time_wasted};
+    return RayFacts{job.frames.count() == 1, job.pixels_done, job.counters,   job.waited, job.elapsed,
+                    job.thread_time,         job.time_wasted, job.rays_wasted};
   });
 }
 
@@ -81,12 +83,14 @@ ApiResponse show_statistics(const Call& call) {
              {"rendering", seconds(facts.elapsed)},
              {"threads", seconds(facts.thread_time)}};
   if (facts.wasted) times["wasted"] = seconds(*facts.wasted);
-  ApiResponse response = shown({{"counters", counters},
-                                {"mean_per_pixel", mean},
-                                {"pixels", facts.pixels},
-                                {"samples_per_pixel", static_cast<double>(facts.counters.primary) / pixels},
-                                {"seconds", std::move(times)},
-                                {"detail", std::move(detail)}});
+  json statistics{{"counters", counters},
+                  {"mean_per_pixel", mean},
+                  {"pixels", facts.pixels},
+                  {"samples_per_pixel", static_cast<double>(facts.counters.primary) / pixels},
+                  {"seconds", std::move(times)},
+                  {"detail", std::move(detail)}};
+  if (facts.wasted) statistics["rays_wasted"] = facts.rays_wasted;
+  ApiResponse response = shown(std::move(statistics));
   if (!is_complete) response.status = 202;
   return response;
 }

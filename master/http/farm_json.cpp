@@ -45,9 +45,11 @@ json to_json(const JobView& job, FarmTime now) {
           {"eta_seconds", job.eta ? json(seconds_of(*job.eta)) : json()},
           {"tiles_given_back", job.tiles_given_back},
           {"tiles_doubled", job.tiles_doubled},
+          {"tiles_shared", job.tiles_shared},
           {"verify", text_of(job.verification)},
           {"tiles_checked", job.tiles_checked},
-          {"seconds_wasted", seconds_of(job.time_wasted)}};
+          {"seconds_wasted", seconds_of(job.time_wasted)},
+          {"rays_wasted", job.rays_wasted}};
 }
 
 json to_json(const FrameView& frame) {

@@ -121,6 +121,15 @@ void serialize(Archive& archive, WasteRow& row) {
   time(archive, row.time_wasted);
 }
 
+/// Follows a WasteRow, where tiles were shared already when it was written.
+struct ShareRow {
+  std::uint64_t tiles_shared = 0, rays_wasted = 0;
+};
+template <class Archive>
+void serialize(Archive& archive, ShareRow& row) {
+  archive(row.tiles_shared, row.rays_wasted);
+}
+
 struct DroppedRow {
   PictureDropped dropped;
 };
@@ -169,6 +178,7 @@ Bytes encode_row(const JobAdded& job) {
 Bytes encode_row(const JobChanged& job) {
   Bytes bytes = encoded(ChangeRow{job});
   encode_to(bytes, WasteRow{job.tiles_doubled, job.tiles_checked, job.time_wasted});
+  encode_to(bytes, ShareRow{job.tiles_shared, job.rays_wasted});
   return bytes;
 }
 Bytes encode_row(const FrameRow& frame) { return encoded(frame); }
@@ -194,6 +204,9 @@ JobChanged decode_change(JobId id, ByteView bytes) {
   const WasteRow waste = decode_from<WasteRow>(source);
   change.tiles_doubled = waste.tiles_doubled, change.tiles_checked = waste.tiles_checked;
   change.time_wasted = waste.time_wasted;
+  if (source.rest().empty()) return change;
+  const ShareRow share = decode_from<ShareRow>(source);
+  change.tiles_shared = share.tiles_shared, change.rays_wasted = share.rays_wasted;
   return change;
 }
 FrameRow decode_frame(ByteView bytes) { return decoded<FrameRow>(bytes); }

@@ -47,7 +47,7 @@ std::vector<Query> queries_of(const World& world, const RenderSettings& settings
   observer.queries = &queries;
   Tracer<RecordingObserver> tracer(world, settings, observer);
   for (std::uint32_t tile = 0; tile < tile_count({settings.width, settings.height}); ++tile)
-    render_passes(tracer, settings, tile, all_passes, never);
+    render_passes(tracer, settings, tile_at({settings.width, settings.height}, tile), all_passes, never);
   return queries;
 }
 

@@ -52,7 +52,8 @@ asio::awaitable<void> work_once(Address master, Security security, std::string n
   auto dialling = dial(master, std::move(security), std::chrono::seconds(60));
   Channel channel = co_await std::move(dialling);
   MasterConnection connection(std::move(channel), {});
-  connection.post(Hello{{}, RAYFARM_VERSION, name, "", 1, engine_fingerprint()});
+  connection.post(Hello{
+      {protocol_version, oldest_protocol_version, 0}, RAYFARM_VERSION, name, "", 1, engine_fingerprint()});
   auto loops = until_first_ends(connection.tend(), deliver(connection, images));
   co_await std::move(loops);
 }

@@ -36,7 +36,7 @@ enum class Wire { plaintext, tls };
 void tiles_over_loopback(benchmark::State& state, const std::vector<PassImage>& images, Wire wire) {
   spdlog::set_level(spdlog::level::err);
   const RenderSettings settings{.width = 100 * tile_side, .height = 20 * tile_side, .spp = 1};
-  const TileRenderer renderer = [&](const RenderSettings&, std::uint32_t, PassSet,
+  const TileRenderer renderer = [&](const RenderSettings&, const Tile&, PassSet,
                                     const std::function<bool()>&) { return std::optional(images); };
   const FarmKeys keys;
   MasterThread master(patient_door(), {"127.0.0.1", 0}, wire == Wire::tls ? keys.of_master() : Security{});

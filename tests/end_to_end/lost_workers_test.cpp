@@ -1,6 +1,7 @@
 // Workers that die, hang and leave: the picture is complete, with the same bytes.
 #include <signal.h>
 
+#include <algorithm>
 #include <random>
 
 #include "tests/end_to_end/each_scene.h"
@@ -28,6 +29,33 @@ TEST_P(LostWorkers, KilledAtRandomInstantsChangeNoByte) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllScenes, LostWorkers, testing::ValuesIn(five_scenes()), name_of_case);
+
+class OneTile : public EachScene {};
+
+TEST_P(OneTile, SharedByAllChangesNoByteAndNoCounterAlsoWhenWorkersDie) {
+  Words one_tile = picture();
+  *std::next(std::ranges::find(one_tile, "--size")) = "64x64";
+  *std::next(std::ranges::find(one_tile, "--spp")) = "64";
+  const std::string expected = rendered_here(one_tile);
+  const auto counted = nlohmann::json::parse(rayfarm(Words{"stats"} + one_tile + Words{"--json"}).out);
+  start_master({"--threads", "0"});
+  start_workers_to_kill();
+  int shared = 0;
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937 random(seed);
+    wait_for_workers(3);
+    const std::string id = submit(one_tile);
+    kill_workers(id, random);
+    wait_for_state(id, "done");
+    EXPECT_TRUE(fetched(id) == expected);
+    EXPECT_EQ(job(id).at("counters"), counted.at("counters"));
+    shared += job(id).at("tiles_shared").get<int>();
+  }
+  EXPECT_GE(shared, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, OneTile, testing::ValuesIn(five_scenes()), name_of_case);
 
 /// Two workers of one thread, and a picture that takes them a second or two.
 class TwoWorkers : public FarmPrograms {

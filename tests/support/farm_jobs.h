@@ -19,7 +19,7 @@ inline JobSpec simple_job(RenderSettings settings) {
 inline Film rendered(const TileRenderer& renderer, const RenderSettings& settings) {
   Film film({settings.width, settings.height});
   for (std::uint32_t tile = 0; tile < tile_count(film.size()); ++tile) {
-    const auto images = renderer(settings, tile, all_passes, [] { return false; });
+    const auto images = renderer(settings, tile_at(film.size(), tile), all_passes, [] { return false; });
     for (const PassImage& image : *images) film.put(tile, image);
   }
   return film;

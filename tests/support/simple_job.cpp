@@ -20,27 +20,31 @@ SceneData scene_data(const Scene& scene) {
 
 std::optional<std::vector<PassImage>> position_tile(const RenderSettings& settings, std::uint32_t tile,
                                                     PassSet passes, const std::function<bool()>& stop) {
+  return position_area(settings, tile_at({settings.width, settings.height}, tile), passes, stop);
+}
+
+std::optional<std::vector<PassImage>> position_area(const RenderSettings& settings, const Tile& area,
+                                                    PassSet passes, const std::function<bool()>& stop) {
   std::vector<PassImage> images;
   for (int pass = 0; pass < pass_count; ++pass) {
     if (!(passes >> pass & 1)) continue;
     if (stop()) return std::nullopt;
     PassImage image;
     image.pass = pass;
-    for_each_pixel(tile_at({settings.width, settings.height}, tile), pass,
-                   [&](std::uint32_t x, std::uint32_t y) {
-                     image.rgb.insert(image.rgb.end(), {float(x), float(y), float(settings.seed)});
-                   });
+    for_each_pixel(area, pass, [&](std::uint32_t x, std::uint32_t y) {
+      image.rgb.insert(image.rgb.end(), {float(x), float(y), float(settings.seed)});
+    });
     image.counters.primary = image.rgb.size() / 3 * settings.spp;
     images.push_back(std::move(image));
   }
   return images;
 }
 
-TileRenderer prepare_positions(Scene) { return position_tile; }
+TileRenderer prepare_positions(Scene) { return position_area; }
 
 PrepareScene Gate::prepare() {
   return [this](Scene) -> TileRenderer {
-    return [this](const RenderSettings& settings, std::uint32_t tile, PassSet passes,
+    return [this](const RenderSettings& settings, const Tile& area, PassSet passes,
                   const std::function<bool()>& stop) -> std::optional<std::vector<PassImage>> {
       ++begun_;
       begun_.notify_all();
@@ -52,7 +56,7 @@ PrepareScene Gate::prepare() {
         }
         std::this_thread::yield();
       }
-      return position_tile(settings, tile, passes, stop);
+      return position_area(settings, area, passes, stop);
     };
   };
 }

@@ -15,7 +15,9 @@ SceneData scene_data(const Scene& scene);
 /// The pixel values are their positions: what travels and where it is put can be seen.
 std::optional<std::vector<PassImage>> position_tile(const RenderSettings& settings, std::uint32_t tile,
                                                     PassSet passes, const std::function<bool()>& stop);
-/// position_tile() for any scene.
+std::optional<std::vector<PassImage>> position_area(const RenderSettings& settings, const Tile& area,
+                                                    PassSet passes, const std::function<bool()>& stop);
+/// position_area() for any scene.
 TileRenderer prepare_positions(Scene scene);
 
 /// Renderers that wait in the middle of each tile until they are let go or told to stop.

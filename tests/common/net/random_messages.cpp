@@ -21,6 +21,13 @@ Assignment random_assignment(std::mt19937_64& random) {
           static_cast<std::uint32_t>(random()), static_cast<PassSet>(1 + random() % 15)};
 }
 
+Tile random_piece(std::mt19937_64& random) {
+  const auto x0 = static_cast<std::uint32_t>(random() % 60'000),
+             y0 = static_cast<std::uint32_t>(random() % 60'000);
+  return {x0, y0, x0 + 1 + static_cast<std::uint32_t>(random() % 64),
+          y0 + 1 + static_cast<std::uint32_t>(random() % 64)};
+}
+
 RenderSettings random_settings(std::mt19937_64& random) {
   RenderSettings s;
   s.width = 1 + random() % 2000, s.height = 1 + random() % 2000, s.spp = 16;
@@ -60,6 +67,7 @@ std::vector<ToWorker> random_to_worker(std::mt19937_64& random) {
           SceneData{hash, std::make_shared<const Bytes>(scene)},
           FrameStart{JobId{random()}, hash, random_settings(random), {hash, std::string(64, 'b')}},
           random_assignment(random),
+          PieceAssignment{random_assignment(random), random_piece(random)},
           Revoke{random_leases(random)},
           Unneeded{random_leases(random)},
           FrameEnd{JobId{random()}, static_cast<std::uint32_t>(random())},
@@ -86,7 +94,8 @@ std::vector<ToMaster> random_to_master(std::mt19937_64& random) {
                 static_cast<std::uint32_t>(random()),
                 std::string(64, 'e'),
                 random()},
-          std::move(result),
+          result,
+          PieceResult{result, random_piece(random)},
           GiveBack{random_leases(random), "it stops"},
           Holds{{{random_assignment(random), true}, {random_assignment(random), false}}},
           Heartbeat{},

@@ -68,6 +68,31 @@ TEST(Render, CountersOfPassesAddUpToThoseOfTheTile) {
   EXPECT_EQ(sum({all_passes}).primary, 64u * 64 * s.spp);
 }
 
+TEST(Render, PiecesOfATileAreTheTile) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const World world(seed < 4 ? random_scene(seed) : random_special_scene(seed));
+    RenderSettings s = small_settings();
+    if (seed % 2 == 1) s.sampler = SamplerKind::adapt1, s.spp = 16;
+    const Film whole = rendered(world, s);
+    for (const std::uint32_t side : {16u, 32u}) {
+      RayCounters sum;
+      for (std::uint32_t y = 0; y < 64; y += side)
+        for (std::uint32_t x = 0; x < 64; x += side) {
+          const Tile piece{x, y, x + side, y + side};
+          const auto images = render_area(world, s, piece, all_passes, never);
+          for (const PassImage& image : *images) {
+            EXPECT_EQ(image.rgb, whole.pass_pixels(piece, image.pass));
+            sum += image.counters;
+          }
+        }
+      RayCounters of_tile;
+      const auto images = render_tile(world, s, 0, all_passes, never);
+      for (const PassImage& image : *images) of_tile += image.counters;
+      EXPECT_EQ(sum, of_tile);
+    }
+  }
+}
+
 TEST(Render, AStopIsHeardInMidPixelAndDropsTheTile) {
   const World world(random_scene(3));
   RenderSettings s = small_settings();

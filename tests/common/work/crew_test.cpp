@@ -43,6 +43,24 @@ TEST(Crew, RendersWhatItIsAssigned) {
   EXPECT_EQ(tiles.size(), 80u);
 }
 
+TEST(Crew, RendersAPieceOfATile) {
+  CrewAtWork at_work(1, prepare_positions);
+  const PieceAssignment piece{{LeaseId{1}, JobId{1}, 0, 11, 0b1010}, {80, 96, 96, 112}};
+  at_work.crew.take(piece);
+  const auto answer = std::get<PieceResult>(at_work.answers.next());
+  EXPECT_EQ(answer.area, piece.area);
+  EXPECT_EQ(answer.result.lease, LeaseId{1});
+  EXPECT_EQ(answer.result.images, position_area({}, piece.area, 0b1010, [] { return false; }));
+}
+
+TEST(Crew, GivesBackWhatIsNoPieceOfItsTile) {
+  CrewAtWork at_work(1, prepare_positions);
+  for (const Tile& area : {Tile{0, 64, 16, 80}, Tile{68, 64, 84, 80}, Tile{112, 64, 130, 80}}) {
+    at_work.crew.take(PieceAssignment{{LeaseId{1}, JobId{1}, 0, 11, all_passes}, area});
+    EXPECT_EQ(at_work.answers.next(), ToMaster(GiveBack{{LeaseId{1}}, "the piece is none of the tile's"}));
+  }
+}
+
 TEST(Crew, PreparesASceneOnceForAllThreadsAndJobs) {
   std::atomic<int> prepared{0};
   CrewAtWork at_work(4, [&](Scene scene) {
@@ -195,6 +213,22 @@ TEST(Crew, FinishesWhatItHeldWhenItsMasterWasLostAndAnswersTheNextOneWithIt) {
   at_work.answers.next();
   gate.wait_for_begun(3);
   EXPECT_EQ(gate.begun(), 3) << "nothing was rendered twice";
+}
+
+TEST(Crew, KeepsNoPieceWhenItsMasterWasLost) {
+  Gate gate;
+  CrewAtWork at_work(1, gate.prepare());
+  at_work.crew.take(PieceAssignment{{LeaseId{1}, JobId{1}, 0, 5, all_passes}, {320, 0, 336, 16}});
+  at_work.crew.take(PieceAssignment{{LeaseId{2}, JobId{1}, 0, 5, all_passes}, {336, 0, 352, 16}});
+  gate.wait_for_begun(1);
+  lose_master(at_work);
+  EXPECT_TRUE(at_work.crew.kept().empty());
+  gate.wait_for_stopped(1);
+  gate.open();
+  at_work.start_job(1);
+  at_work.assign(3, 5);
+  EXPECT_EQ(std::get<Result>(at_work.answers.next()).images,
+            position_tile({}, 5, all_passes, [] { return false; }));
 }
 
 TEST(Crew, GivesAResultAgainThatTheLostMasterMayNotHaveGot) {

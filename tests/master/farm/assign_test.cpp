@@ -19,7 +19,7 @@ WorkerInfo local(std::uint32_t threads = 2) {
   return {.name = "master", .threads = threads, .kind = WorkerKind::local};
 }
 
-std::vector<std::uint32_t> tiles_of(const std::vector<Assignment>& assignments) {
+std::vector<std::uint32_t> tiles_of(const std::vector<HeldAssignment>& assignments) {
   std::vector<std::uint32_t> tiles;
   for (const Assignment& a : assignments) tiles.push_back(a.tile);
   return tiles;

@@ -10,6 +10,7 @@
 #include <set>
 #include <tuple>
 
+#include "master/split.h"
 #include "tests/master/farm/fake_worker.h"
 #include "tests/master/farm/rebuilt_farm.h"
 
@@ -37,7 +38,7 @@ class Chaos {
     for (const auto& [id, size] : sizes_) farm_->resume(id, now_);
     while (!to_come_.empty()) send_a_frame();
     while (!workers_.empty()) stop(0);
-    FakeWorker last(*farm_, {.name = "last", .threads = 4}, now_);
+    FakeWorker last(*farm_, {.name = "last", .threads = 4, .takes_pieces = chance(2) == 0}, now_);
     last.finish_all(now_);
     for (const auto& [id, size] : sizes_) {
       const JobView job = farm_->job(id, now_).value();
@@ -95,7 +96,9 @@ class Chaos {
     const auto threads = static_cast<std::uint32_t>(1 + chance(4));
     const std::string name =
         "pc" + std::to_string(names_++);  // who lied twice does not come again by the same
-    workers_.emplace_back(*farm_, WorkerInfo{.name = name, .threads = threads, .kind = kind}, now_);
+    workers_.emplace_back(
+        *farm_, WorkerInfo{.name = name, .threads = threads, .kind = kind, .takes_pieces = chance(3) != 0},
+        now_);
   }
 
   void leave(std::size_t who) {
@@ -190,7 +193,10 @@ class Chaos {
         its == workers_.end() ? chance(workers_.size()) : static_cast<std::size_t>(its - workers_.begin());
     if (std::ranges::count(workers_[who].held(), old.lease, &Assignment::lease) != 0) return;
     try {
-      farm_->receive(workers_[who].id(), rendered(old, sizes_.at(old.job)), now_);
+      if (old.piece)
+        farm_->receive(workers_[who].id(), rendered_piece(old), now_);
+      else
+        farm_->receive(workers_[who].id(), rendered(old, sizes_.at(old.job)), now_);
     } catch (const WorkerError&) {
       leave(who);
     }
@@ -199,7 +205,8 @@ class Chaos {
   void lie() {
     const std::size_t who = worker_with_work();
     if (who == workers_.size()) return;
-    Result result = rendered(workers_[who].held()[0], sizes_.at(workers_[who].held()[0].job));
+    const HeldAssignment held = workers_[who].held()[0];
+    Result result = held.piece ? rendered_piece(held).result : rendered(held, sizes_.at(held.job));
     switch (chance(3)) {
       case 0:
         result.tile += 1;
@@ -211,7 +218,10 @@ class Chaos {
         result.images[0].rgb.pop_back();
         break;
     }
-    EXPECT_THROW(farm_->receive(workers_[who].id(), result, now_), WorkerError);
+    if (held.piece)
+      EXPECT_THROW(farm_->receive(workers_[who].id(), PieceResult{result, *held.piece}, now_), WorkerError);
+    else
+      EXPECT_THROW(farm_->receive(workers_[who].id(), result, now_), WorkerError);
     workers_[who].drop(result.lease);
     leave(who);
   }
@@ -246,13 +256,15 @@ class Chaos {
   }
 
   void remember(const FakeWorker& worker) {
-    for (const Assignment& work : worker.held()) once_held_.emplace_back(worker.id(), work);
+    for (const HeldAssignment& work : worker.held()) once_held_.emplace_back(worker.id(), work);
   }
 
-  /// What the workers were told they hold is what the farm says they hold; no pass is leased to more than two
-  /// or leased when it is done; nobody who may work is idle while something waits.
+  /// What the workers were told they hold is what the farm says they hold; no pass, or piece of one, is leased to more than
+  /// two or leased when it is done; nobody who may work is idle while something waits.
   void check_leases() {
-    std::map<std::tuple<JobId, std::uint32_t, std::uint32_t, int>, int> leased;
+    std::map<std::tuple<JobId, std::uint32_t, std::uint32_t, int>,
+             std::map<std::pair<std::uint32_t, std::uint32_t>, int>>
+        leased;
     std::map<JobId, std::uint64_t> pixels_leased;
     const std::vector<WorkerView> views = farm_->workers();
     ASSERT_EQ(views.size(), workers_.size());
@@ -262,11 +274,13 @@ class Chaos {
       if (views[i].state == WorkerState::drained) {
         ASSERT_EQ(views[i].leases, 0u);
       }
-      for (const Assignment& a : workers_[i].held())
+      for (const HeldAssignment& a : workers_[i].held())
         for (int pass = 0; pass < pass_count; ++pass) {
           if (!(a.passes & 1u << pass)) continue;
-          const bool is_first = leased[{a.job, a.frame, a.tile, pass}]++ == 0;
-          ASSERT_LE((leased[{a.job, a.frame, a.tile, pass}]), 2) << "leased three times";
+          auto& squares = leased[{a.job, a.frame, a.tile, pass}];
+          const bool is_first = squares.empty();
+          for (const Tile& square : pieces_of(a.piece.value_or(tile_at(sizes_.at(a.job), a.tile)), 16))
+            ASSERT_LE((++squares[{square.x0, square.y0}]), 2) << "leased three times";
           ASSERT_FALSE(farm_->film(a.job, a.frame)->passes_of(a.tile) & 1u << pass) << "leased though done";
           if (is_first) pixels_leased[a.job] += pixel_count(tile_at(sizes_.at(a.job), a.tile), pass);
         }
@@ -294,7 +308,7 @@ class Chaos {
   std::map<JobId, std::vector<std::uint32_t>> to_come_;  // frames whose scenes have not come
   std::set<JobId> cancelled_;
   std::set<std::pair<WorkerId, JobId>> refused_;
-  std::vector<std::pair<WorkerId, Assignment>> once_held_;
+  std::vector<std::pair<WorkerId, HeldAssignment>> once_held_;
   int names_ = 0;
 };
 

@@ -10,12 +10,14 @@ float made_up_value(FrameId frame, std::uint32_t x, std::uint32_t y, int channel
          0.25f * static_cast<float>(channel);
 }
 
-Result rendered(const Assignment& assignment, Size film, double seconds) {
+namespace {
+
+Result rendered_area(const Assignment& assignment, const Tile& area, double seconds) {
   Result result{assignment.lease, assignment.job, assignment.frame, assignment.tile, {}, seconds};
   for (int pass = 0; pass < pass_count; ++pass) {
     if (!(assignment.passes & 1u << pass)) continue;
     PassImage image{.pass = pass, .rgb = {}, .counters = {}};
-    for_each_pixel(tile_at(film, assignment.tile), pass, [&](std::uint32_t x, std::uint32_t y) {
+    for_each_pixel(area, pass, [&](std::uint32_t x, std::uint32_t y) {
       for (int c = 0; c < 3; ++c)
         image.rgb.push_back(made_up_value({assignment.job, assignment.frame}, x, y, c));
       image.counters.primary += 1;
@@ -24,6 +26,16 @@ Result rendered(const Assignment& assignment, Size film, double seconds) {
     result.images.push_back(std::move(image));
   }
   return result;
+}
+
+}  // namespace
+
+Result rendered(const Assignment& assignment, Size film, double seconds) {
+  return rendered_area(assignment, tile_at(film, assignment.tile), seconds);
+}
+
+PieceResult rendered_piece(const HeldAssignment& assignment, double seconds) {
+  return {rendered_area(assignment, assignment.piece.value(), seconds), *assignment.piece};
 }
 
 ZeroedVector<float> made_up_picture(JobId job, Size film, std::uint32_t frame) {
@@ -58,12 +70,14 @@ bool add_frame(Farm& farm, JobId job, std::uint32_t frame, FarmTime now) {
 
 struct FakeWorker::Desk {
   std::vector<ToWorker> messages;
-  std::vector<Assignment> held;
+  std::vector<HeldAssignment> held;
   std::map<JobId, Size> jobs;
 
   void take(ToWorker message) {
     if (const auto* assignment = std::get_if<Assignment>(&message)) {
-      held.push_back(*assignment);
+      held.push_back({*assignment});
+    } else if (const auto* piece = std::get_if<PieceAssignment>(&message)) {
+      held.push_back({piece->work, piece->area});
     } else if (const auto* revoke = std::get_if<Revoke>(&message)) {
       for (const LeaseId lease : revoke->leases)
         std::erase_if(held, [&](auto& a) { return a.lease == lease; });
@@ -83,12 +97,15 @@ FakeWorker::FakeWorker(Farm& farm, WorkerInfo info, FarmTime now)
 
 std::vector<ToWorker> FakeWorker::take_messages() { return std::exchange(desk_->messages, {}); }
 
-const std::vector<Assignment>& FakeWorker::held() const { return desk_->held; }
+const std::vector<HeldAssignment>& FakeWorker::held() const { return desk_->held; }
 
 void FakeWorker::finish_one(FarmTime now, double seconds) {
-  const Assignment first = desk_->held.at(0);
+  const HeldAssignment first = desk_->held.at(0);
   drop(first.lease);
-  farm_->receive(id_, rendered(first, desk_->jobs.at(first.job), seconds), now);
+  if (first.piece)
+    farm_->receive(id_, rendered_piece(first, seconds), now);
+  else
+    farm_->receive(id_, rendered(first, desk_->jobs.at(first.job), seconds), now);
 }
 
 void FakeWorker::finish_all(FarmTime now) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,13 @@ namespace rayfarm {
 
 /// What the fake workers "render": a different value for each frame, pixel and channel.
 float made_up_value(FrameId frame, std::uint32_t x, std::uint32_t y, int channel);
+/// What a worker was asked for.
+struct HeldAssignment : Assignment {
+  std::optional<Tile> piece{};  // none: the whole tile
+};
 /// What an honest worker answers to an assignment.
 Result rendered(const Assignment& assignment, Size film, double seconds = 1);
+PieceResult rendered_piece(const HeldAssignment& assignment, double seconds = 1);
 /// The whole picture, as the farm's film must be in the end.
 ZeroedVector<float> made_up_picture(JobId job, Size film, std::uint32_t frame = 0);
 /// What the counters of a whole picture must sum up to.
@@ -27,10 +33,10 @@ class FakeWorker {
   FakeWorker(Farm& farm, WorkerInfo info, FarmTime now = {});
 
   WorkerId id() const { return id_; }
-  /// What it was sent since the last call, but Assignment and Revoke, which held() reflects.
+  /// What it was sent since the last call, but assignments and Revoke, which held() reflects.
   std::vector<ToWorker> take_messages();
   /// The assignments it holds, in the order in which they came.
-  const std::vector<Assignment>& held() const;
+  const std::vector<HeldAssignment>& held() const;
   /// Renders and hands in its first assignment. The farm believes no more seconds than went by.
   void finish_one(FarmTime now = {}, double seconds = 1);
   void finish_all(FarmTime now = {});

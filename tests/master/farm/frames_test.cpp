@@ -28,7 +28,7 @@ JobId submit_all(Farm& farm, const JobSpec& spec) {
   return id;
 }
 
-std::vector<std::uint32_t> frames_of(const std::vector<Assignment>& held) {
+std::vector<std::uint32_t> frames_of(const std::vector<HeldAssignment>& held) {
   std::vector<std::uint32_t> frames;
   for (const Assignment& a : held) frames.push_back(a.frame);
   return frames;

@@ -45,8 +45,9 @@ inline void anothers_tile(Result& result) {
 /// Hands in the first that it holds; nothing when it holds nothing.
 inline void deliver_one(Farm& farm, FakeWorker& worker, FarmTime now, const Lie& lie = nothing) {
   if (worker.held().empty()) return;
-  const Assignment first = worker.held()[0];
+  const HeldAssignment first = worker.held()[0];
   worker.drop(first.lease);
+  if (first.piece) return farm.receive(worker.id(), rendered_piece(first), now);
   Result result = rendered(first, forty_tiles);
   lie(result);
   farm.receive(worker.id(), result, now);

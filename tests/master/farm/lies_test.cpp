@@ -108,7 +108,7 @@ TEST(Lies, AResultThatWasOnItsWayIsNone) {
   Farm farm;
   FakeWorker late(farm, remote("late"));
   const JobId job = farm.submit(job_of(forty_tiles), 0s);
-  const std::vector<Assignment> held = late.held();
+  const std::vector<HeldAssignment> held = late.held();
   farm.pause(job, 1s);
   for (const Assignment& work : held)
     EXPECT_NO_THROW(farm.receive(late.id(), rendered(work, forty_tiles), 1s));
@@ -120,7 +120,7 @@ TEST(Lies, HoweverMuchIsRevokedNoHonestAnswerIsOne) {
   Farm farm;
   FakeWorker late(farm, remote("late", 64));
   const JobId job = farm.submit(job_of({64 * 64, 64}), 0s);
-  std::vector<Assignment> held;
+  std::vector<HeldAssignment> held;
   for (int i = 0; i < 40; ++i) {
     std::ranges::copy(late.held(), std::back_inserter(held));
     farm.pause(job, 1s);

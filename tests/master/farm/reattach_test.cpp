@@ -33,7 +33,7 @@ bool holds_tile(const FakeWorker& worker, std::uint32_t tile) {
 /// A farm that died while a worker held tiles, and was built again from its records.
 struct DeadMaster {
   std::vector<FarmRecord> records;
-  std::vector<Assignment> held;
+  std::vector<HeldAssignment> held;
   JobId job{};
   Farm farm = after_death();
 
@@ -147,7 +147,7 @@ TEST(Reattach, AfterTheNetworkWasCutAWorkerGoesOnToo) {
   Farm farm;
   FakeWorker cut(farm, remote("pc"));
   const JobId job = farm.submit(job_of(ten_tiles), 0s);
-  const std::vector<Assignment> held = cut.held();
+  const std::vector<HeldAssignment> held = cut.held();
   farm.remove_worker(cut.id(), "it was silent", 2s);
   FakeWorker again(farm, remote("pc", 1), 3s);
   farm.receive(again.id(), Holds{{{held[1], false}}}, 3s);
@@ -163,7 +163,7 @@ TEST(Reattach, AWorkerThatIsBackBeforeItsOldConnectionIsNoticedDeadIsTheSame) {
   info.process = 7, info.certificate = "c0";
   FakeWorker cut(farm, info);
   const JobId job = farm.submit(job_of(ten_tiles), 0s);
-  const std::vector<Assignment> held = cut.held();
+  const std::vector<HeldAssignment> held = cut.held();
   FakeWorker again(farm, info, 1s);
   EXPECT_EQ(again.name(), "pc");
   EXPECT_EQ(farm.workers().size(), 1u);
@@ -248,7 +248,7 @@ TEST(Reattach, WhatIsFinishedIsAnOpinionWhenItsTileIsOnTrial) {
   JobSpec spec = job_of(ten_tiles);
   spec.verification = Quorum{2};
   const JobId job = farm.submit(spec, 0s);
-  const std::vector<Assignment> held = cut.held();
+  const std::vector<HeldAssignment> held = cut.held();
   farm.remove_worker(cut.id(), "it was silent", 1s);
   FakeWorker other(farm, remote("other", 1), 1s);
   while (!other.held().empty()) other.finish_one(2s);

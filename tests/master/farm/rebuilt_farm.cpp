@@ -31,7 +31,9 @@ void expect_same(const JobView& before, const JobView& after) {
   EXPECT_EQ(after.tiles_given_back, before.tiles_given_back);
   EXPECT_EQ(after.tiles_doubled, before.tiles_doubled);
   EXPECT_EQ(after.tiles_checked, before.tiles_checked);
+  EXPECT_EQ(after.tiles_shared, before.tiles_shared);
   EXPECT_EQ(after.time_wasted, before.time_wasted);
+  EXPECT_EQ(after.rays_wasted, before.rays_wasted);
   EXPECT_EQ(after.verification, before.verification);
 }
 

@@ -192,7 +192,7 @@ TEST(Farm, AStoppingWorkerMayFinishWhatItHoldsAndGetsNothingMore) {
   Farm farm;
   FakeWorker leaving(farm, remote("leaving"));
   const JobId job = farm.submit(job_of({6 * 64, 64}), 0s);
-  const std::vector<Assignment> held = leaving.held();
+  const std::vector<HeldAssignment> held = leaving.held();
   leaving.drop(held[2].lease), leaving.drop(held[3].lease);
   farm.receive(leaving.id(), GiveBack{{held[2].lease, held[3].lease}, ""}, 1s);
   leaving.finish_all();

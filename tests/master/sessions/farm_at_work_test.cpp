@@ -31,7 +31,7 @@ struct RunningJob {
 };
 
 TEST(FarmAtWork, MakesTheFilmWithOneTwoAndThreeWorkers) {
-  const Film expected = rendered(position_tile, settings);
+  const Film expected = rendered(position_area, settings);
   for (int count = 1; count <= 3; ++count) {
     MasterThread master;
     std::deque<WorkerThread> workers;
@@ -50,7 +50,7 @@ TEST(FarmAtWork, MakesTheFilmOverEncryptedConnectionsWhoeverDials) {
   WorkerThread one(dials, prepare_positions), two(listens, prepare_positions);
   master.dial({"dialled", two.listening_at()});
   master.wait_for_workers(2);
-  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_area, settings).rgb());
 }
 
 TEST(FarmAtWork, KnowsAWorkerByItsCertificateWhateverItsName) {
@@ -82,7 +82,7 @@ TEST(FarmAtWork, TakesNoPlaintextWhenItIsClosed) {
 TEST(FarmAtWork, MakesTheFilmWithItsOwnThreads) {
   MasterThread master;
   auto local = master.make<LocalThreads>(2u, PrepareScene(prepare_positions));
-  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_area, settings).rgb());
   master.end(local);
 }
 
@@ -110,7 +110,7 @@ TEST(FarmAtWork, BansAWorkerThatLiesByOneUlpAndMakesTheFilmWithoutIt) {
     });
     master.wait_until([&](Farm& farm) { return farm.job(id, {})->state == JobState::done; });
     const auto film = master.ask([&](Farm& farm, FarmTime) { return farm.film(id); });
-    EXPECT_EQ(film->rgb(), rendered(position_tile, {.width = 1280, .height = 640, .spp = 1}).rgb());
+    EXPECT_EQ(film->rgb(), rendered(position_area, {.width = 1280, .height = 640, .spp = 1}).rgb());
   }
   EXPECT_EQ(master.ask([](Farm& farm, FarmTime) { return farm.banned(); }), std::vector<std::string>{"liar"});
 }
@@ -126,7 +126,7 @@ TEST(FarmAtWork, MakesTheFilmAlthoughAWorkerIsKilledInTheMiddleOfATile) {
   }
   WorkerThread next(worker_for(master.address(), "next"), prepare_positions);
   RunningJob second(master);
-  EXPECT_EQ(second.finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(second.finished_film().rgb(), rendered(position_area, settings).rgb());
   EXPECT_EQ(master.ask([](Farm& farm, FarmTime now) { return farm.jobs(now); })[0].state, JobState::done);
 }
 
@@ -139,7 +139,7 @@ TEST(FarmAtWork, StopsAWorkerInTheMiddleOfATileWhenTheJobIsCancelled) {
   EXPECT_TRUE(master.ask([&](Farm& farm, FarmTime now) { return farm.cancel(slow.id, now); }));
   gate.wait_for_stopped(1);
   gate.open();
-  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_area, settings).rgb());
 }
 
 TEST(FarmAtWork, StopsItsOwnThreadsInTheMiddleOfATileWhenTheJobIsPaused) {
@@ -152,7 +152,7 @@ TEST(FarmAtWork, StopsItsOwnThreadsInTheMiddleOfATileWhenTheJobIsPaused) {
   gate.wait_for_stopped(2);
   gate.open();
   EXPECT_TRUE(master.ask([&](Farm& farm, FarmTime now) { return farm.resume(job.id, now); }));
-  EXPECT_EQ(job.finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(job.finished_film().rgb(), rendered(position_area, settings).rgb());
   master.end(local);
 }
 
@@ -168,7 +168,7 @@ TEST(FarmAtWork, LosesNothingWhenAWorkerStopsCleanly) {
   master.wait_for_workers(0);
   EXPECT_GT(job.view().pixels_done, 0u);  // what was begun was delivered
   WorkerThread next(worker_for(master.address(), "next"), prepare_positions);
-  EXPECT_EQ(job.finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(job.finished_film().rgb(), rendered(position_area, settings).rgb());
 }
 
 TEST(FarmAtWork, FailsAJobThatNoWorkerCanRenderAndSaysWhy) {
@@ -189,7 +189,7 @@ TEST(FarmAtWork, DialsWorkersThatListenAndNamesThem) {
   master.dial({"lab7", worker.listening_at()});
   master.wait_for_workers(1);
   EXPECT_EQ(master.ask([](Farm& farm, FarmTime) { return farm.workers(); })[0].info.name, "lab7");
-  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(RunningJob(master).finished_film().rgb(), rendered(position_area, settings).rgb());
 }
 
 TEST(FarmAtWork, GoesOnWhenTheMasterComesBackAtTheSameAddress) {
@@ -202,7 +202,7 @@ TEST(FarmAtWork, GoesOnWhenTheMasterComesBackAtTheSameAddress) {
   master.reset();
   MasterThread next(patient_door(), address);
   next.wait_for_workers(1);
-  EXPECT_EQ(RunningJob(next).finished_film().rgb(), rendered(position_tile, settings).rgb());
+  EXPECT_EQ(RunningJob(next).finished_film().rgb(), rendered(position_area, settings).rgb());
 }
 
 }  // namespace

@@ -15,8 +15,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// It takes whole tiles only.
 Hello hello_from(std::string name) {
-  return {{}, "0.1.0", std::move(name), "a test's CPU", 1, engine_fingerprint()};
+  return {{protocol_version, oldest_protocol_version, can_reattach},
+          "0.1.0",
+          std::move(name),
+          "a test's CPU",
+          1,
+          engine_fingerprint()};
 }
 
 /// Connected, not a word said.
@@ -55,7 +61,46 @@ TEST(Sessions, TakeAWorkerInAndGiveItWork) {
                     *position_tile(one_tile, 0, all_passes, [] { return false; }), 0.1});
   EXPECT_EQ(guest.receive_a<FrameEnd>().job, job);
   const Film film = *master.ask([&](Farm& farm, FarmTime) { return farm.film(job); });
-  EXPECT_EQ(film.rgb(), rendered(position_tile, one_tile).rgb());
+  EXPECT_EQ(film.rgb(), rendered(position_area, one_tile).rgb());
+}
+
+TEST(Sessions, GiveAWorkerOfManyThreadsPiecesOfTheOnlyTile) {
+  MasterThread master;
+  Peer peer(master);
+  Hello hello = hello_from("lab7");
+  hello.threads = 4, hello.versions.capabilities |= can_take_pieces;
+  peer.send(hello);
+  peer.receive_a<Welcome>();
+  const JobId job = submit(master, one_tile);
+  for (int pieces = 0; pieces < 4;) {
+    const ToWorker message = peer.receive();
+    const auto* piece = std::get_if<PieceAssignment>(&message);
+    if (!piece) continue;
+    ++pieces;
+    peer.send(
+        PieceResult{{piece->work.lease, job, 0, 0,
+                     *position_area(one_tile, piece->area, piece->work.passes, [] { return false; }), 0.1},
+                    piece->area});
+  }
+  while (!std::holds_alternative<FrameEnd>(peer.receive())) {}
+  const Film film = *master.ask([&](Farm& farm, FarmTime) { return farm.film(job); });
+  EXPECT_EQ(film.rgb(), rendered(position_area, one_tile).rgb());
+}
+
+TEST(Sessions, GiveAWorkerThatKnowsNoPiecesWholeTiles) {
+  MasterThread master;
+  Peer peer(master);
+  Hello hello = hello_from("lab7");
+  hello.threads = 4;
+  peer.send(hello);
+  peer.receive_a<Welcome>();
+  const JobId job = submit(master, one_tile);
+  peer.receive_a<SceneData>();
+  peer.receive_a<FrameStart>();
+  const auto assignment = peer.receive_a<Assignment>();
+  peer.send(Result{assignment.lease, job, 0, 0, *position_tile(one_tile, 0, all_passes, [] { return false; }),
+                   0.1});
+  EXPECT_EQ(peer.receive_a<FrameEnd>().job, job);
 }
 
 TEST(Sessions, RefuseAnotherProtocolAndSayWhatToDo) {

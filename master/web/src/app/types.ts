@@ -61,9 +61,11 @@ export interface Job {
   eta_seconds: number | null;
   tiles_given_back: number;
   tiles_doubled: number;
+  tiles_shared: number;
   verify: string;
   tiles_checked: number;
   seconds_wasted: number;
+  rays_wasted: number;
 }
 
 export interface Worker {

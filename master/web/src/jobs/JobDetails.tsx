@@ -110,6 +110,13 @@ function Progress({ job }: { job: Job }) {
           </span>
         </Row>
       )}
+      {job.tiles_shared > 0 && (
+        <Row name="Shared">
+          <span title="Near the end, idle threads of several workers render pieces of one tile">
+            {many(job.tiles_shared, "tile")}
+          </span>
+        </Row>
+      )}
       {job.seconds_wasted > 0 && (
         <Row name="Wasted">
           <span title="What threads spent on tiles that were given back, or that another worker had sooner">

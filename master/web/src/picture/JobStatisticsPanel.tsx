@@ -137,6 +137,12 @@ export function JobStatisticsPanel() {
                   <td>{duration(seconds)}</td>
                 </tr>
               ))}
+              {statistics.rays_wasted !== undefined && (
+                <tr>
+                  <th scope="row">rays in vain</th>
+                  <td>{count(statistics.rays_wasted)}</td>
+                </tr>
+              )}
             </tbody>
           </table>
           <Detail statistics={statistics} />

@@ -4,6 +4,7 @@ export interface JobStatistics {
   mean_per_pixel: Record<string, number>;
   samples_per_pixel: number;
   seconds: Record<string, number>;
+  rays_wasted?: number; // not known of a single frame
   detail: {
     state: "making" | "done" | "unavailable";
     progress?: number;
