@@ -1,14 +1,12 @@
-// How soon the farm reacts, over real sockets: from a worker's death or silence to the next worker being given its
-// tiles, and from a command to the worker's thread being free in the middle of a slow tile.
+// How soon a command frees a worker's thread in the middle of a slow tile, over real sockets. What else a farm reacts to
+// is in reaction_benchmark.cpp.
 #include <benchmark/benchmark.h>
-#include <signal.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <functional>
 
 #include "master/script/script.h"
-#include "tests/support/child_program.h"
 #include "tests/support/farm_jobs.h"
 #include "tests/support/master_thread.h"
 #include "tests/support/worker_thread.h"
@@ -47,28 +45,6 @@ class Moment {
   std::promise<Clock::time_point> promise_;
 };
 
-void signal_to_next_worker(benchmark::State& state, int signal) {
-  spdlog::set_level(spdlog::level::off);
-  for (auto _ : state) {
-    MasterThread master(DoorTimes{});
-    ChildProgram worker(
-        {"rayfarm-worker", "--master", text_of(master.address()), "--name", "pc", "--threads", "1"}, {},
-        "/dev/null");
-    master.wait_for_workers(1);
-    master.ask([](Farm& farm, FarmTime now) { return farm.submit(slow_job(), now); });
-    master.wait_until([](Farm& farm) { return farm.workers().at(0).leases == 3; });
-
-    const auto given = std::make_shared<Moment>();
-    const auto next = [given](const ToWorker& message) {
-      if (std::holds_alternative<Assignment>(message)) given->tell();
-    };
-    master.ask([&](Farm& farm, FarmTime now) { return farm.add_worker({.name = "next"}, next, now); });
-    const auto begin = Clock::now();
-    worker.send_signal(signal);
-    measure(state, begin, given->wait());
-  }
-}
-
 using Command = std::function<bool(Farm&, JobId, FarmTime)>;
 
 void command_to_free_thread(benchmark::State& state, const Command& command) {
@@ -101,8 +77,6 @@ void twenty_times(benchmark::internal::Benchmark* benchmark) {
   benchmark->ComputeStatistics("max", greatest)->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK_CAPTURE(signal_to_next_worker, killed, SIGKILL)->Apply(twenty_times);
-BENCHMARK_CAPTURE(signal_to_next_worker, silent, SIGSTOP)->Apply(twenty_times);
 BENCHMARK_CAPTURE(command_to_free_thread, cancel, [](Farm& f, JobId job, FarmTime now) {
   return f.cancel(job, now);
 })->Apply(twenty_times);
