@@ -1,6 +1,6 @@
 // The solids, each in its local space, and the set operations on them.
 //
-// A solid names itself and its numbers for people, and says which of its faces are flat; what a ray meets of it
+// A solid names itself and its numbers for people, and says what faces it has; what a ray meets of it
 // stands in a header of its own (solids.h lists them).
 #pragma once
 #include <array>
@@ -16,26 +16,31 @@ struct NamedNumber {
   double value;
 };
 
-/// Faces that have one normal each, so that two different normals tell two faces. Caps are across the z axis.
-enum class FlatFaces : std::uint8_t { none, caps, all };
+/// What tells two points of its surface to be of two faces, where a ray enters at both or leaves at both.
+enum class Faces : std::uint8_t {
+  one,    // nothing: it is convex and smooth
+  round,  // one sheet of it may stand before another
+  caps,   // across the z axis, they have one normal each; the rest is round
+  flat,   // each has one normal
+};
 
 struct Sphere {  // unit radius about the origin
   static constexpr std::string_view name = "sphere";
-  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static constexpr Faces faces = Faces::one;
   static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Sphere&) const = default;
 };
 
 struct Cube {  // [0,1]^3
   static constexpr std::string_view name = "cube";
-  static constexpr FlatFaces flat_faces = FlatFaces::all;
+  static constexpr Faces faces = Faces::flat;
   static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Cube&) const = default;
 };
 
 struct Plane {  // the half-space z < 0; its face is z = 0
   static constexpr std::string_view name = "plane";
-  static constexpr FlatFaces flat_faces = FlatFaces::all;
+  static constexpr Faces faces = Faces::flat;
   static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Plane&) const = default;
 };
@@ -45,7 +50,7 @@ struct Cylinder {  // x^2 + y^2 < 1, z_min < z < z_max; infinite limits mean no 
   double z_max = std::numeric_limits<double>::infinity();
 
   static constexpr std::string_view name = "cylinder";
-  static constexpr FlatFaces flat_faces = FlatFaces::caps;
+  static constexpr Faces faces = Faces::caps;
   std::array<NamedNumber, 2> numbers() const { return {{{"z_min", z_min}, {"z_max", z_max}}}; }
   bool operator==(const Cylinder&) const = default;
 };
@@ -56,7 +61,7 @@ struct Cone {
   double z_min = 0, z_max = 1;
 
   static constexpr std::string_view name = "cone";
-  static constexpr FlatFaces flat_faces = FlatFaces::caps;
+  static constexpr Faces faces = Faces::caps;
   std::array<NamedNumber, 2> numbers() const { return {{{"z_min", z_min}, {"z_max", z_max}}}; }
   bool operator==(const Cone&) const = default;
 };
@@ -67,7 +72,7 @@ struct Torus {
   double R = 1, r = 0.25;
 
   static constexpr std::string_view name = "torus";
-  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static constexpr Faces faces = Faces::round;
   std::array<NamedNumber, 2> numbers() const { return {{{"R", R}, {"r", r}}}; }
   bool operator==(const Torus&) const = default;
 };
@@ -77,7 +82,7 @@ struct RoundedCube {
   double r = 0.1;
 
   static constexpr std::string_view name = "rounded_cube";
-  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static constexpr Faces faces = Faces::one;
   std::array<NamedNumber, 1> numbers() const { return {{{"r", r}}}; }
   bool operator==(const RoundedCube&) const = default;
 };
@@ -89,7 +94,7 @@ struct Mesh {
   bool smooth = true;  // shaded with the normals of its corners
 
   static constexpr std::string_view name = "mesh";
-  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static constexpr Faces faces = Faces::round;
   static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Mesh&) const = default;
 };
@@ -98,7 +103,7 @@ struct Bezier {
   std::uint32_t asset = 0;
 
   static constexpr std::string_view name = "bezier";
-  static constexpr FlatFaces flat_faces = FlatFaces::none;
+  static constexpr Faces faces = Faces::round;
   static std::array<NamedNumber, 0> numbers() { return {}; }
   bool operator==(const Bezier&) const = default;
 };

@@ -57,7 +57,7 @@ void PixelSurfaces::find_and_add(const Hit& sample, std::uint32_t weight) {
 
 bool PixelSurfaces::shows(const Glimpse& first, const Hit& sample) const {
   if (plainly_shows(first, sample)) return true;
-  if (first.flat_faces != FlatFaces::caps || !is_of_leaf(first, sample)) return false;
+  if (first.faces != Faces::caps || !is_of_leaf(first, sample)) return false;
   const Leaf& leaf = world_->leaves[sample.leaf];
   return !is_of_cap(leaf, first.normal) && !is_of_cap(leaf, sample.normal) && on_one_sheet(first, sample);
 }

@@ -30,7 +30,7 @@ enum class Reduction : std::uint8_t {
 struct Glimpse {
   std::uint32_t leaf = 0;
   bool leaf_entering = false;
-  FlatFaces flat_faces = FlatFaces::none;  // of the leaf
+  Faces faces = Faces::one;  // of the leaf
   double t = 0;
   Vec3d point{}, normal{};
 };
@@ -43,8 +43,8 @@ struct Surface {
   Vec3d points{}, normals{};
 
   /// Its first sample, so many times.
-  void begin(const Hit& sample, FlatFaces flat_faces, std::uint32_t times) {
-    first.leaf = sample.leaf, first.leaf_entering = sample.leaf_entering, first.flat_faces = flat_faces;
+  void begin(const Hit& sample, Faces faces, std::uint32_t times) {
+    first.leaf = sample.leaf, first.leaf_entering = sample.leaf_entering, first.faces = faces;
     first.t = sample.t, first.point = sample.point, first.normal = sample.normal;
     const double factor = times;
     weight = times;
@@ -95,7 +95,8 @@ std::string_view name_of(Reduction reduction);
 /// samples).
 ///
 /// A surface is one face of a leaf, and one sheet of it: a face that comes into view twice (a hole's near and far
-/// side, the tube of a torus before its far side) is two. Four are told apart at a time; a fifth takes the place of
+/// side, the tube of a torus before its far side) is two. What is convex and smooth has one for rays that enter and one
+/// for rays that leave. Four are told apart at a time; a fifth takes the place of
 /// the one that has been outweighed by others, so whatever more than a fifth of the samples that hit show is among
 /// the four, and what has lost its place joins the rest, which is no surface and is never shown. Source: J. Misra
 /// and D. Gries, Finding Repeated Elements, Science of Computer Programming 2, 1982.
@@ -137,11 +138,12 @@ class PixelSurfaces {
   /// Whether the sample lies on the same face, and on the same sheet of it, as far as that is seen at a glance.
   static bool plainly_shows(const Glimpse& first, const Hit& sample) {
     if (!is_of_leaf(first, sample)) return false;
-    return first.flat_faces == FlatFaces::none ? on_one_sheet(first, sample) : sample.normal == first.normal;
+    if (first.faces == Faces::one) return true;
+    return first.faces == Faces::round ? on_one_sheet(first, sample) : sample.normal == first.normal;
   }
   void begin(Surface& surface, const Hit& sample, std::uint32_t weight) const {
     const Solid& solid = world_->leaves[sample.leaf].solid;
-    surface.begin(sample, std::visit([](const auto& s) { return s.flat_faces; }, solid), weight);
+    surface.begin(sample, std::visit([](const auto& s) { return s.faces; }, solid), weight);
   }
   bool shows(const Glimpse& first, const Hit& sample) const;
   std::uint64_t lead(std::size_t rank) const { return ranks_[rank].weight - set_off_[rank]; }

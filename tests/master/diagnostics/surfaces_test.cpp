@@ -12,13 +12,15 @@
 namespace rayfarm {
 namespace {
 
-/// Round leaves, as many as asked for: face and sheet are then those of the samples alone.
-Scene scene_of_spheres(std::uint32_t count) {
+/// As many leaves of one kind as asked for.
+Scene scene_of(const Solid& solid, std::uint32_t count) {
   Scene scene;
   scene.nodes = {{Operation{CsgOp::unite, count}, {}, {}, {}, {}, {}}};
-  for (std::uint32_t i = 0; i < count; ++i) scene.nodes.push_back({Sphere{}, {}, {}, {}, {}, {}});
+  for (std::uint32_t i = 0; i < count; ++i) scene.nodes.push_back({solid, {}, {}, {}, {}, {}});
   return scene;
 }
+/// Of a torus, face and sheet are those of the samples alone.
+Scene scene_of_tori(std::uint32_t count) { return scene_of(Torus{}, count); }
 
 Hit hit_of(std::uint32_t leaf, double t, const Vec3d& point, const Vec3d& normal) {
   return {.t = t, .point = point, .normal = normal, .leaf = leaf, .leaf_entering = true};
@@ -60,7 +62,7 @@ TEST(Surfaces, EachSampleBelongsToOneAndTheRanksDescend) {
 }
 
 TEST(Surfaces, WhatOverAFifthOfTheSamplesShowIsAmongTheRanks) {
-  const World world(scene_of_spheres(40));
+  const World world(scene_of_tori(40));
   std::mt19937 random(1);
   for (int trial = 0; trial < 200; ++trial) {
     // A few heavy surfaces and many light ones, in any order.
@@ -101,7 +103,7 @@ TEST(Surfaces, AFaceThatComesIntoViewTwiceIsTwoSurfaces) {
   const Hit near_1 = hit_of(0, 4.00, {0, 0.25, 4}, {0, 1, 0}),
             near_2 = hit_of(0, 4.01, {0.01, 0.25, 4.01}, {0, 1, 0});
   const Hit far = hit_of(0, 6, {0, 0.26, 6}, {0, 0, -1});
-  const World world(scene_of_spheres(1));
+  const World world(scene_of_tori(1));
   PixelSurfaces surfaces(world, Reduction::majority);
   for (const Hit& sample : {far, near_2, near_1}) surfaces.add(sample, 1);
   const std::vector<Surface> ranked = surfaces.ranked();
@@ -110,8 +112,25 @@ TEST(Surfaces, AFaceThatComesIntoViewTwiceIsTwoSurfaces) {
   EXPECT_EQ(ranked[1].distance(), 6);
 }
 
+TEST(Surfaces, WhatIsConvexAndSmoothHasOneSurfaceForEachSide) {
+  // A ball within a pixel: its limbs face away from each other.
+  const Hit front = hit_of(0, 4, {0, 0, 4}, {0, 0, -1}), limb = hit_of(0, 5, {1, 0, 5}, {1, 0, 0}),
+            other_limb = hit_of(0, 5, {-1, 0, 5}, {-1, 0, 0});
+  Hit back = hit_of(0, 6, {0, 0, 6}, {0, 0, 1});
+  back.leaf_entering = false;  // where another solid has been taken away from it
+  for (const Solid& solid : {Solid(Sphere{}), Solid(RoundedCube{0.5})}) {
+    const World world(scene_of(solid, 1));
+    PixelSurfaces surfaces(world, Reduction::majority);
+    for (const Hit& sample : {limb, back, front, other_limb}) surfaces.add(sample, 1);
+    const std::vector<Surface> ranked = surfaces.ranked();
+    ASSERT_EQ(ranked.size(), 2u);
+    EXPECT_EQ(ranked[0].weight, 3u);
+    EXPECT_EQ(ranked[1].distance(), 6);
+  }
+}
+
 TEST(Surfaces, OfEquallyManyTheCloserOneIsFirst) {
-  const World world(scene_of_spheres(2));
+  const World world(scene_of_tori(2));
   PixelSurfaces surfaces(world, Reduction::majority);
   surfaces.add(sample_of(1), 1);
   surfaces.add(sample_of(0), 1);
@@ -124,7 +143,7 @@ TEST(Surfaces, OfEquallyManyTheCloserOneIsFirst) {
 /// A relief seen from above: z = 10 + 0.3 sin(x / period) over a pixel from 0 to 1.
 TEST(Surfaces, TheMeanOfABumpySurfaceIsItsMean) {
   constexpr double period = 0.3, height = 0.03, pi = 3.14159265358979323846;  // 10 % of the period
-  const World world(scene_of_spheres(1));
+  const World world(scene_of_tori(1));
   PixelSurfaces surfaces(world, Reduction::majority);
   constexpr int count = 4096;
   double sum = 0, squares = 0, seen = 0;
