@@ -202,7 +202,7 @@ void Farm::State::end(Job& job, JobState state, FarmTime now) {
   touch(job);
   update_queue(job);
   ended_jobs.push_back(job.id);
-  drop_old_jobs();
+  drop_old_jobs(now);
   drop_old_films();
 }
 

@@ -23,6 +23,7 @@ double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).co
 }  // namespace
 
 void Farm::tick(FarmTime now) {
+  state_->drop_old_jobs(now);
   state_->note_overdue(now);
   if (!state_->splits.empty()) return state_->fill_all(now);  // who was too slow for a piece may no longer be
   state_->relieve_stragglers(now);

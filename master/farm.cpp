@@ -234,6 +234,15 @@ bool Farm::set_priority(JobId id, int priority, FarmTime) {
   return true;
 }
 
+bool Farm::remove(JobId id) {
+  const auto found = state_->jobs.find(id);
+  if (found == state_->jobs.end() || !has_ended(found->second)) return false;
+  state_->tell(title_of(found->second) + " removed");
+  std::erase(state_->ended_jobs, id);
+  state_->drop_job(id);
+  return true;
+}
+
 std::vector<FarmEvent> Farm::take_events() { return std::exchange(state_->events, {}); }
 
 std::vector<FarmRecord> Farm::take_records() {

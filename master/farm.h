@@ -89,8 +89,9 @@ struct JobSpec {
 /// in.
 struct FarmLimits {
   std::uint64_t film_bytes = std::uint64_t{2}
-                             << 30;  // all films, scenes, assets; the newest stay, however big
-  std::size_t jobs = 1000;           // at least 1; the others are as if they had never been
+                             << 30;    // all films, scenes, assets; the newest stay, however big
+  std::size_t jobs = 1000;             // at least 1; of the others only the numbers are known
+  FarmTime job_age = FarmTime::max();  // above 0, since its end; older ones go however few there are
   std::size_t unfinished_jobs = 10'000;
   std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished frames, each scene and asset once
   std::size_t worker_names = 10'000;  // that workers had; a worker may come under a new one each time
@@ -234,7 +235,8 @@ class Farm {
   /// WorkerError.
   void receive(WorkerId worker, const Holds& holds, FarmTime now);
 
-  /// Time goes by: to be called each 100 ms or so. Work that nobody ends is noticed by it.
+  /// Time goes by: to be called each 100 ms or so. Work that nobody ends is noticed by it, and that a job is too old to be
+  /// kept.
   void tick(FarmTime now);
 
   /// Throws SettingsError for settings that cannot be rendered, FarmFull, KeyTaken.
@@ -249,6 +251,8 @@ class Farm {
   bool cancel(JobId job, FarmTime now);
   bool fail(JobId job, std::string why, FarmTime now);  // what it still needs will not come
   bool set_priority(JobId job, int priority, FarmTime now);
+  /// Nothing of it is kept any longer. False: there is no such job, or it has not ended.
+  bool remove(JobId job);
   // Of workers by their unique name. Draining revokes what it holds at once and gives it nothing more. False:
   // no such worker; undrain also knows drained workers that are away.
   bool drain(std::string_view name, FarmTime now);
@@ -264,6 +268,8 @@ class Farm {
 
   std::vector<JobView> jobs(FarmTime now) const;  // in order of submission
   std::optional<JobView> job(JobId id, FarmTime now) const;
+  /// There was a job of this number, which is no longer kept.
+  bool was_here(JobId id) const;
   std::vector<WorkerView> workers() const;  // in order of joining
   std::vector<std::string> banned() const;  // names
   Trust trust_in(std::string_view name) const;

@@ -132,14 +132,22 @@ void Farm::State::drop_picture(Job& job, JobFrame& frame) {
       {job.id, frame.number}, frame.pixels_done, frame.counters, frame.thread_time, frame.ended});
 }
 
-void Farm::State::drop_old_jobs() {
-  for (; ended_jobs.size() > limits.jobs; ended_jobs.pop_front()) {
-    const auto oldest = jobs.find(ended_jobs.front());
-    for (JobFrame& frame : oldest->second.frames)
-      if (frame.canvas) drop_picture(oldest->second, frame);
-    job_by_key.erase(oldest->second.spec.key);
-    record(JobDropped{oldest->first});
-    jobs.erase(oldest);
+void Farm::State::drop_job(JobId id) {
+  Job& job = jobs.at(id);
+  for (JobFrame& frame : job.frames)
+    if (frame.canvas) drop_picture(job, frame);
+  std::erase_if(ended_frames, [id](FrameId frame) { return frame.job == id; });
+  job_by_key.erase(job.spec.key);
+  record(JobDropped{id});
+  jobs.erase(id);
+  ++revision;
+}
+
+void Farm::State::drop_old_jobs(FarmTime now) {
+  const auto is_old = [&](JobId id) { return now - *jobs.at(id).ended >= limits.job_age; };
+  while (ended_jobs.size() > limits.jobs || (!ended_jobs.empty() && is_old(ended_jobs.front()))) {
+    drop_job(ended_jobs.front());
+    ended_jobs.pop_front();
   }
 }
 

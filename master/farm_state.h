@@ -269,7 +269,9 @@ struct Farm::State {
   void fail(Job& job, std::string why, FarmTime now);
   /// Is done, or its job has ended; what of it stays is counted.
   void end(Job& job, JobFrame& frame, FarmTime now);
-  void drop_old_jobs();
+  void drop_old_jobs(FarmTime now);
+  /// One that has ended, and is not among ended_jobs any more.
+  void drop_job(JobId id);
   void drop_old_films();
   void drop_picture(Job& job, JobFrame& frame);
   void pause(Job& job, std::string why);

@@ -29,6 +29,11 @@ std::optional<JobView> Farm::job(JobId id, FarmTime now) const {
   return state_->view(job->second, now);
 }
 
+bool Farm::was_here(JobId id) const {
+  const auto number = static_cast<std::uint64_t>(id);
+  return number > 0 && number <= state_->last_job && !state_->jobs.contains(id);
+}
+
 JobView Farm::State::view(const Job& job, FarmTime now) const {
   JobView view = view_of(job, now);
   if (view.message.empty()) view.message = words_for_trials(job);

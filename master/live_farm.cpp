@@ -20,10 +20,15 @@ FarmTime steady_time() { return std::chrono::steady_clock::now().time_since_epoc
 /// Time goes on over the end of a process, and of the PC.
 FarmTime wall_time() { return std::chrono::system_clock::now().time_since_epoch(); }
 
+FarmLimits with_secret(FarmLimits limits) {
+  limits.secret = drawn();
+  return limits;
+}
+
 }  // namespace
 
-LiveFarm::LiveFarm()
-    : clock_offset_(wall_time() - steady_time()), limits_{.secret = drawn()}, farm_(limits_) {}
+LiveFarm::LiveFarm(FarmLimits limits)
+    : clock_offset_(wall_time() - steady_time()), limits_(with_secret(limits)), farm_(limits_) {}
 
 void LiveFarm::open(const std::filesystem::path& journal) {
   journal_ = std::make_unique<Journal>(journal);

@@ -20,7 +20,7 @@ class Journal;
 class LiveFarm {
  public:
   /// Forgotten with the process, unless a journal is opened.
-  LiveFarm();
+  explicit LiveFarm(FarmLimits limits = {});  // the secret among them it draws itself
   ~LiveFarm();
   LiveFarm(const LiveFarm&) = delete;
 

@@ -29,16 +29,32 @@ Examples:
   rayfarm-master                                        renders with this PC's threads; page at http://127.0.0.1:5412
   rayfarm-master --state ~/farm --listen 0.0.0.0:5411   takes in workers from other PCs: rayfarm token new
   rayfarm-master --state ~/farm --dial lab1=192.168.1.11 --dial lab2=192.168.1.12
+  rayfarm-master --state ~/farm --keep-days 30          forgets jobs a month after their end
   rayfarm-master --config /etc/rayfarm/master.toml      keys are the options: threads = 0, dial = ["lab1=192.168.1.11"]
 
 Whatever leaves this PC is encrypted, with keys that are made in the state folder at the first start.
 )";
+
+/// What of jobs that have ended is kept.
+struct Keeping {
+  std::size_t jobs = FarmLimits{}.jobs;
+  std::optional<std::int64_t> days;
+  std::uint64_t gigabytes = FarmLimits{}.film_bytes >> 30;
+
+  FarmLimits limits() const {
+    FarmLimits limits;
+    limits.jobs = jobs, limits.film_bytes = gigabytes << 30;
+    if (days) limits.job_age = std::chrono::days(*days);
+    return limits;
+  }
+};
 
 struct Arguments {
   std::string state, listen = "127.0.0.1:5411", http = "127.0.0.1:5412";
   std::string certificate, key;
   std::vector<std::string> dial;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  Keeping keep;
   Openness openness;
 };
 
@@ -47,6 +63,21 @@ void expect_distinct_names(const std::vector<std::string>& targets) {
   for (const std::string& target : targets)
     if (const std::string name = target.substr(0, target.find('=')); !names.insert(name).second)
       throw CLI::ValidationError("--dial", "two workers are named " + name + "; give each a name of its own");
+}
+
+void declare_keeping(CLI::App& app, Keeping& keep) {
+  app.add_option("--keep-jobs", keep.jobs, "So many jobs that have ended are kept, those that ended last")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app.add_option("--keep-days", keep.days, "And for so many days after their end; without it as long as there is room")
+      ->type_name("D")
+      ->check(CLI::Range(1, 36'500));
+  app.add_option("--keep-gb", keep.gigabytes,
+                 "Of their pictures and scenes so many GB, the newest; in memory, and in the state folder")
+      ->type_name("GB")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -73,6 +104,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--dial", arguments.dial, "A worker that waits with --listen; may be repeated")
       ->type_name("NAME=HOST[:PORT]")
       ->allow_extra_args(false);
+  declare_keeping(app, arguments.keep);
   app.final_callback([&arguments] { expect_distinct_names(arguments.dial); });
 }
 
@@ -143,7 +175,7 @@ int serve(const Arguments& arguments) {
 
   // Never destroyed: that would wait for names that are still being looked up, and hold up a clean stop.
   static auto& io = *new asio::io_context;
-  LiveFarm farm;
+  LiveFarm farm(arguments.keep.limits());
   Sessions sessions(io, farm, parse_address(arguments.listen, default_farm_port),
                     security_of(arguments.openness, state ? &*state : nullptr), {}, access);
   FarmDoor door(

@@ -206,7 +206,7 @@ void Farm::State::settle(FarmTime now) {
   std::ranges::sort(frame_ends);
   for (const auto& end : job_ends) ended_jobs.push_back(end.second);
   for (const auto& end : frame_ends) ended_frames.push_back(end.second);
-  drop_old_jobs();
+  drop_old_jobs(now);
   drop_old_films();
 }
 

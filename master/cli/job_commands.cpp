@@ -1,4 +1,4 @@
-// rayfarm jobs, job, watch, pause, resume, cancel, priority.
+// rayfarm jobs, job, watch, pause, resume, cancel, remove, priority.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -139,6 +139,16 @@ ExitCode change_job(const JobArguments& a, const std::string& verb, const json& 
   return ExitCode::done;
 }
 
+ExitCode remove_job(const JobArguments& a) {
+  const json job = post_json(job_target(a.id) + "/remove", json::object());
+  if (a.json)
+    print_json(job);
+  else
+    std::printf("job %llu, which was %s, is removed\n", static_cast<unsigned long long>(a.id),
+                text_in(job, "state").c_str());
+  return ExitCode::done;
+}
+
 using Run = std::function<ExitCode(const JobArguments&)>;
 using Arguments = std::shared_ptr<JobArguments>;
 
@@ -176,6 +186,7 @@ void add_job_commands(CLI::App& app, Command& chosen) {
   add_verb(app, chosen, "pause", "Stop work on a job until it is resumed");
   add_verb(app, chosen, "resume", "Go on with a paused or held job");
   add_verb(app, chosen, "cancel", "End a job for good; what is rendered can still be fetched");
+  add_for_job(app, chosen, "remove", "Forget a job that has ended, with its pictures", fresh(), remove_job);
 
   const Arguments arguments = fresh();
   add_for_job(app, chosen, "priority", "Change a job's priority", arguments,

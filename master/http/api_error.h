@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/net/messages.h"
+#include "master/farm.h"
 
 namespace rayfarm {
 
@@ -13,6 +13,10 @@ struct ApiError : std::runtime_error {
 };
 
 inline std::string text_of(JobId id) { return "job " + std::to_string(static_cast<std::uint64_t>(id)); }
-inline ApiError no_such_job(JobId id) { return {404, "there is no " + text_of(id)}; }
+/// Of a farm that does not have it.
+inline ApiError no_such_job(const Farm& farm, JobId id) {
+  if (farm.was_here(id)) return {410, text_of(id) + " is no longer kept; submit it again"};
+  return {404, "there is no " + text_of(id)};
+}
 
 }  // namespace rayfarm

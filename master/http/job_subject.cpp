@@ -29,7 +29,7 @@ std::string text_of(JobId id, std::optional<std::uint32_t> frame) {
 
 FrameView frame_view(const Farm& farm, JobId id, std::optional<std::uint32_t> number, FarmTime now) {
   const std::optional<JobView> job = farm.job(id, now);
-  if (!job) throw no_such_job(id);
+  if (!job) throw no_such_job(farm, id);
   const std::optional<FrameView> frame = farm.frame(id, number, now);
   if (!frame) throw ApiError(404, "there is no " + text_of(id, number) + ", it has " + text_of(job->frames));
   return *frame;

@@ -23,7 +23,7 @@ ApiResponse list_jobs(const Call& call) {
 /// The job as it is on the farm's thread.
 json job_now(Farm& farm, JobId id, FarmTime now) {
   const std::optional<JobView> job = farm.job(id, now);
-  if (!job) throw no_such_job(id);
+  if (!job) throw no_such_job(farm, id);
   json object = to_json(*job, now);
   object["revision"] = farm.revision();
   return object;
@@ -79,7 +79,7 @@ ApiResponse submit_job(const Call& call) {
 
 ApiResponse list_frames(const Call& call) {
   return shown(call.doors.farm.ask([id = job_id(call)](Farm& farm, FarmTime now) {
-    if (!farm.job(id, now)) throw no_such_job(id);
+    if (!farm.job(id, now)) throw no_such_job(farm, id);
     json frames = json::array();
     for (const FrameView& frame : farm.frames(id, now)) frames.push_back(to_json(frame));
     return json{{"frames", std::move(frames)}};
@@ -127,6 +127,16 @@ ApiResponse prioritise_job(const Call& call) {
                     [=](Farm& farm, JobId id, FarmTime now) { return farm.set_priority(id, priority, now); });
 }
 
+/// The job as it was.
+ApiResponse remove_job(const Call& call) {
+  return shown(call.doors.farm.ask([id = job_id(call)](Farm& farm, FarmTime now) {
+    json job = job_now(farm, id, now);
+    if (!farm.remove(id))
+      throw ApiError(409, text_of(id) + " is " + job["state"].get<std::string>() + ": cancel it first");
+    return job;
+  }));
+}
+
 constexpr Route routes[]{
     {"GET", "/api/v1/jobs?after&wait", list_jobs},
     {"POST", "/api/v1/jobs", submit_job, Work::script, submission_limit},
@@ -137,6 +147,7 @@ constexpr Route routes[]{
     {"POST", "/api/v1/jobs/{id}/resume", resume_job},
     {"POST", "/api/v1/jobs/{id}/cancel", cancel_job},
     {"POST", "/api/v1/jobs/{id}/priority", prioritise_job},
+    {"POST", "/api/v1/jobs/{id}/remove", remove_job},
 };
 
 }  // namespace

@@ -102,8 +102,22 @@ TEST_F(FarmCommands, AJobIsPausedResumedPrioritisedAndCancelled) {
   EXPECT_EQ(rayfarm({"watch", id}).exit_code, 1);
 }
 
+TEST_F(FarmCommands, AJobIsRemovedOnceItHasEnded) {
+  const std::string id = submit();
+  const ProgramResult early = rayfarm({"remove", id});
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_NE(early.err.find("cancel it first"), std::string::npos) << early.err;
+  rayfarm({"cancel", id});
+  EXPECT_EQ(rayfarm({"remove", id}).out, "job " + id + ", which was cancelled, is removed\n");
+  for (const std::string command : {"job", "watch", "fetch", "remove"}) {
+    const ProgramResult gone = rayfarm({command, id});
+    EXPECT_EQ(gone.exit_code, 1) << command;
+    EXPECT_NE(gone.err.find("job " + id + " is no longer kept"), std::string::npos) << gone.err;
+  }
+}
+
 TEST_F(FarmCommands, AnUnknownJobOrWorkerIsNamed) {
-  for (const std::string command : {"job", "watch", "fetch", "pause", "resume", "cancel"}) {
+  for (const std::string command : {"job", "watch", "fetch", "pause", "resume", "cancel", "remove"}) {
     const ProgramResult result = rayfarm({command, "7"});
     EXPECT_EQ(result.exit_code, 1) << command;
     EXPECT_NE(result.err.find("no job 7"), std::string::npos) << result.err;

@@ -21,9 +21,9 @@ ProgramResult rayfarm(Words words) {
   return run_program(std::move(words), no_master);
 }
 
-const Words all_commands{"render", "submit", "jobs",     "job",     "watch", "fetch",   "pause",
-                         "resume", "cancel", "priority", "workers", "drain", "undrain", "compare",
-                         "stats",  "trace",  "map",      "cloud",   "chart"};
+const Words all_commands{"render",  "submit", "jobs",     "job",    "watch",   "fetch", "pause",
+                         "resume",  "cancel", "priority", "remove", "workers", "drain", "undrain",
+                         "compare", "stats",  "trace",    "map",    "cloud",   "chart"};
 
 TEST(Program, HelpsWithEachCommand) {
   const ProgramResult help = rayfarm({"--help"});

@@ -41,6 +41,8 @@ class Chaos {
     FakeWorker last(*farm_, {.name = "last", .threads = 4, .takes_pieces = chance(2) == 0}, now_);
     last.finish_all(now_);
     for (const auto& [id, size] : sizes_) {
+      ASSERT_EQ(farm_->was_here(id), removed_.contains(id));
+      if (removed_.contains(id)) continue;
       const JobView job = farm_->job(id, now_).value();
       if (cancelled_.contains(id)) {
         EXPECT_EQ(job.state, JobState::cancelled);
@@ -132,6 +134,7 @@ class Chaos {
   }
 
   bool has_ended(JobId job) {
+    if (removed_.contains(job)) return true;
     const JobState state = farm_->job(job, now_)->state;
     return state == JobState::cancelled || state == JobState::failed;
   }
@@ -154,6 +157,7 @@ class Chaos {
     if (sizes_.empty()) return;
     const JobId job = std::next(sizes_.begin(), static_cast<std::ptrdiff_t>(chance(sizes_.size())))->first;
     for (const FakeWorker& worker : workers_) remember(worker);
+    if (chance(20) == 0) return remove(job);
     switch (chance(8)) {
       case 0:
         if (farm_->cancel(job, now_)) cancelled_.insert(job);
@@ -171,6 +175,13 @@ class Chaos {
         farm_->set_priority(job, static_cast<int>(chance(5)), now_);
         return;
     }
+  }
+
+  void remove(JobId job) {
+    const std::optional<JobView> view = farm_->job(job, now_);
+    const bool may_go = view && (view->state == JobState::done || has_ended(job));
+    ASSERT_EQ(farm_->remove(job), may_go);
+    if (may_go) removed_.insert(job);
   }
 
   void drain_or_undrain() {
@@ -306,7 +317,7 @@ class Chaos {
   std::vector<FakeWorker> workers_;
   std::map<JobId, Size> sizes_;
   std::map<JobId, std::vector<std::uint32_t>> to_come_;  // frames whose scenes have not come
-  std::set<JobId> cancelled_;
+  std::set<JobId> cancelled_, removed_;
   std::set<std::pair<WorkerId, JobId>> refused_;
   std::vector<std::pair<WorkerId, HeldAssignment>> once_held_;
   int names_ = 0;

@@ -20,6 +20,23 @@ JobId done_job(Farm& farm, FakeWorker& worker, Size size = one_tile) {
   return job;
 }
 
+std::vector<JobId> known_jobs(const Farm& farm) {
+  std::vector<JobId> known;
+  for (const JobView& job : farm.jobs(0s)) known.push_back(job.id);
+  return known;
+}
+
+/// Whether anybody still has the job's scene.
+struct WatchedScene {
+  std::weak_ptr<const std::vector<std::uint8_t>> bytes;
+
+  JobId submit_to(Farm& farm, std::string hash = "watched") {
+    JobSpec spec = job_of(one_tile, "picture", std::move(hash));
+    bytes = spec.scene_bytes;
+    return farm.submit(std::move(spec), 0s);
+  }
+};
+
 TEST(EndedJobs, KeepTheirFilmsWithinTheBudgetTheNewestFirst) {
   Farm farm({.film_bytes = 2 * one_film + one_scene});
   FakeWorker worker(farm, pc());
@@ -93,11 +110,89 @@ TEST(EndedJobs, AreForgottenWhenTheyAreTooMany) {
       }(),
       0s);
   for (int i = 0; i < 5; ++i) done_job(farm, worker);
-  std::vector<JobId> known;
-  for (const JobView& job : farm.jobs(0s)) known.push_back(job.id);
-  EXPECT_EQ(known, (std::vector{held, JobId{4}, JobId{5}, JobId{6}}));
+  EXPECT_EQ(known_jobs(farm), (std::vector{held, JobId{4}, JobId{5}, JobId{6}}));
   EXPECT_EQ(farm.job(JobId{2}, 0s), std::nullopt);
   EXPECT_FALSE(farm.cancel(JobId{2}, 0s));
+}
+
+TEST(EndedJobs, AreForgottenWhenTheyEndedTooLongAgo) {
+  Farm farm({.job_age = 10s});
+  FakeWorker worker(farm, pc());
+  const JobId done = farm.submit(job_of(one_tile), 0s), cancelled = farm.submit(job_of(one_tile), 0s);
+  const JobId paused = farm.submit(job_of(one_tile), 0s), held = farm.submit(job_of(one_tile), 0s);
+  farm.pause(paused, 0s), farm.pause(held, 0s);
+  worker.finish_one(5s);
+  farm.cancel(cancelled, 6s);
+  const JobId live = farm.submit(job_of({640, 64}), 7s);
+  worker.finish_one(8s);
+  const std::uint64_t before = farm.revision();
+
+  farm.tick(14s);
+  EXPECT_EQ(known_jobs(farm), (std::vector{done, cancelled, paused, held, live}));
+  farm.tick(15s);
+  EXPECT_EQ(known_jobs(farm), (std::vector{cancelled, paused, held, live}));
+  EXPECT_NE(farm.revision(), before) << "who waits for news is told";
+  farm.tick(1000s);
+  EXPECT_EQ(known_jobs(farm), (std::vector{paused, held, live})) << "what has not ended is never too old";
+  EXPECT_NE(farm.film(live), nullptr);
+
+  EXPECT_TRUE(farm.was_here(done));
+  EXPECT_FALSE(farm.was_here(live));
+  EXPECT_FALSE(farm.was_here(JobId{99}));
+  EXPECT_FALSE(farm.was_here(JobId{0}));
+}
+
+TEST(EndedJobs, AgeFromTheirEndWhateverTheTimeOfTheirFrames) {
+  Farm farm({.job_age = 10s});
+  FakeWorker worker(farm, pc());
+  JobSpec animation = job_of(one_tile);
+  animation.frames = FrameRange{0, 1, 1};
+  const JobId job = farm.submit(animation, 0s);
+  worker.finish_all(1s);
+  farm.tick(100s);
+  EXPECT_NE(farm.film(job, 0), nullptr) << "its other frame has not come yet";
+  add_frame(farm, job, 1, 100s);
+  worker.finish_all(101s);
+  farm.tick(110s);
+  EXPECT_NE(farm.film(job, 0), nullptr);
+  farm.tick(111s);
+  EXPECT_TRUE(farm.was_here(job));
+}
+
+TEST(EndedJobs, CanBeRemovedAndNoOthers) {
+  Farm farm;
+  FakeWorker worker(farm, pc());
+  JobSpec keyed = job_of(one_tile);
+  keyed.key = "mine";
+  const JobId done = farm.submit(keyed, 0s);
+  worker.finish_all();
+  const JobId kept = done_job(farm, worker);
+  const JobId live = farm.submit(job_of(one_tile), 0s);
+  EXPECT_FALSE(farm.remove(live));
+  farm.pause(live, 0s);
+  EXPECT_FALSE(farm.remove(live));
+  EXPECT_TRUE(farm.remove(done));
+  EXPECT_FALSE(farm.remove(done));
+  EXPECT_EQ(known_jobs(farm), (std::vector{kept, live}));
+  EXPECT_EQ(farm.film(kept)->rgb(), made_up_picture(kept, one_tile));
+  EXPECT_TRUE(farm.was_here(done));
+  EXPECT_GT(farm.submit(keyed, 0s), live) << "its key is free";
+}
+
+TEST(EndedJobs, LeaveRoomForOthersWhenTheyAreRemoved) {
+  Farm farm({.film_bytes = 2 * one_film + one_scene});
+  FakeWorker worker(farm, pc());
+  const JobId first = done_job(farm, worker), second = done_job(farm, worker);
+  farm.remove(second);
+  const JobId third = done_job(farm, worker);
+  EXPECT_NE(farm.film(first), nullptr);
+  farm.remove(first), farm.remove(third);
+  WatchedScene scene;
+  const JobId last = scene.submit_to(farm, "scene");
+  worker.finish_all();
+  farm.remove(last);
+  worker.take_messages(), farm.take_records();
+  EXPECT_TRUE(scene.bytes.expired()) << "nobody else shows it";
 }
 
 TEST(EndedJobs, FreeTheirKeysWithTheirPictures) {
@@ -111,17 +206,6 @@ TEST(EndedJobs, FreeTheirKeysWithTheirPictures) {
   done_job(farm, worker);
   EXPECT_NE(farm.submit(keyed, 0s), job);
 }
-
-/// Whether anybody still has the job's scene.
-struct WatchedScene {
-  std::weak_ptr<const std::vector<std::uint8_t>> bytes;
-
-  JobId submit_to(Farm& farm, std::string hash = "watched") {
-    JobSpec spec = job_of(one_tile, "picture", std::move(hash));
-    bytes = spec.scene_bytes;
-    return farm.submit(std::move(spec), 0s);
-  }
-};
 
 TEST(EndedJobs, KeepTheirScenesWhenTheyAreDoneAsLongAsTheirFilms) {
   Farm farm({.film_bytes = one_film + one_scene});

@@ -92,6 +92,25 @@ TEST(FarmBuiltAgain, DoesNotUseAJobsNumberAgain) {
   EXPECT_GT(again.submit(job_of(four_tiles), 3s), last);
 }
 
+TEST(FarmBuiltAgain, DropsWhatBecameTooOldMeanwhileAndRemembersWhatWasRemoved) {
+  Farm farm;
+  FakeWorker pc(farm, {.name = "pc"});
+  const JobId old = farm.submit(job_of(four_tiles), 0s), removed = farm.submit(job_of(four_tiles), 0s);
+  const JobId young = farm.submit(job_of(four_tiles), 0s);
+  for (const auto end : {1s, 2s, 3s})
+    for (int tile = 0; tile < 4; ++tile) pc.finish_one(end);
+  ASSERT_TRUE(farm.remove(removed));
+  std::vector<FarmRecord> records = farm.take_records();
+  const FarmLimits limits{.job_age = 10s};
+  Farm again(limits, past_of(records), 12s);
+  EXPECT_FALSE(again.job(old, 12s));
+  EXPECT_TRUE(again.was_here(old));
+  EXPECT_TRUE(again.was_here(removed));
+  EXPECT_EQ(again.film(young)->rgb(), made_up_picture(young, four_tiles));
+  std::ranges::move(again.take_records(), std::back_inserter(records));
+  expect_same(again, Farm({}, past_of(records), 12s), 12s);
+}
+
 TEST(FarmBuiltAgain, PausesAJobWhosePixelsAreDamagedAndRendersThemWhenItIsResumed) {
   for (const int tiles : {2, 4}) {
     SCOPED_TRACE(tiles);

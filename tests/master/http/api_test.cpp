@@ -81,6 +81,24 @@ TEST_F(Api, AJobIsPausedResumedPrioritisedAndCancelled) {
   EXPECT_EQ(post(job + "/priority").status, 400u);
 }
 
+TEST_F(Api, AJobIsRemovedOnceItHasEndedAndThenItIsSaidThatItIsNoLongerKept) {
+  const std::string id = submit(), job = "/api/v1/jobs/" + id;
+  const ApiResponse early = post(job + "/remove");
+  EXPECT_EQ(early.status, 409u);
+  EXPECT_EQ(json::parse(early.body)["error"], "job " + id + " is waiting: cancel it first");
+  farm.add_renderer("pc");
+  wait_until_done(id);
+  EXPECT_EQ(json::parse(post(job + "/remove").body)["state"], "done");
+  EXPECT_TRUE(get_json("/api/v1/jobs")["jobs"].empty());
+  for (const char* what : {"", "/frames", "/film", "/picture.png", "/maps/depth", "/statistics"}) {
+    const ApiResponse gone = get(job + what);
+    EXPECT_EQ(gone.status, 410u) << what;
+    EXPECT_EQ(json::parse(gone.body)["error"], "job " + id + " is no longer kept; submit it again") << what;
+  }
+  EXPECT_EQ(post(job + "/remove").status, 410u);
+  EXPECT_EQ(post("/api/v1/jobs", {{"scene_of", 1u}}).status, 410u);
+}
+
 TEST_F(Api, AWorkerIsListedDrainedAndUndrained) {
   farm.add_idler("pc 7/ä");
   EXPECT_EQ(get_json("/api/v1/workers")["workers"][0]["name"], "pc 7/ä");

@@ -91,6 +91,21 @@ TEST_F(LiveFarmTest, WritesAllChangesOfOneTurnAtItsEnd) {
   EXPECT_EQ(turns, 2);
 }
 
+TEST_F(LiveFarmTest, ForgetsForGoodWhatIsTooOld) {
+  JobId job{};
+  {
+    LiveFarm live(FarmLimits{.job_age = 1ns});
+    live.open(journal());
+    job = submit(live);
+    render(live, 4);
+    live.apply([](Farm& farm, FarmTime now) { farm.tick(now + 1ns); });
+  }
+  LiveFarm again;
+  again.open(journal());
+  EXPECT_TRUE(again.apply([&](Farm& farm, FarmTime) { return farm.was_here(job); }));
+  EXPECT_GT(submit(again), job);
+}
+
 TEST_F(LiveFarmTest, PausesAllJobsOnAFullDiskAndSaysWhy) {
   LiveFarm live;
   live.open(journal());

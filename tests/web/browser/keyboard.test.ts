@@ -61,7 +61,7 @@ describe("Tab", () => {
 describe("the keyboard alone", () => {
   beforeEach(() => open());
 
-  it("steers the queue: jobs are chosen, raised, cancelled, resumed", async () => {
+  it("steers the queue: jobs are chosen, raised, cancelled, removed, resumed", async () => {
     const list = page.locator("#job-list:focus");
     for (const name of ["held one", "held two"]) {
       await fillForm(page, { name, hold: true });
@@ -82,6 +82,12 @@ describe("the keyboard alone", () => {
     await page.keyboard.press("Enter");
     await isNow(page, "cancelled");
     await list.waitFor(); // the dialog gave the focus back
+    await page.keyboard.press("Shift+Delete");
+    await page.getByRole("dialog", { name: "Remove job" }).waitFor();
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Enter");
+    await page.getByText("keeps it no longer").waitFor();
+    await list.waitFor();
     await page.keyboard.press("Home");
     await details(page).getByRole("heading", { name: "held one" }).waitFor();
     await page.keyboard.press("p");

@@ -6,14 +6,14 @@ import { Icon } from "../app/Icon";
 import { openSubmit } from "../app/route";
 import { jobs, link, selectedId, selectedJob, workers } from "../app/state";
 import type { Counters, Job } from "../app/types";
-import { cancel, isPaused, pauseOrResume, setPriority } from "./job_actions";
+import { cancel, isPaused, pauseOrResume, remove, setPriority } from "./job_actions";
 import { hasEnded, whyWaiting } from "./order";
 
 export function JobDetails() {
   const job = selectedJob.value;
   if (job) return <Details job={job} />;
   if (link.value === "connecting") return null;
-  return <p class="job-details quiet">The master has no job {selectedId.value}.</p>;
+  return <p class="job-details quiet">The master has no job {selectedId.value}, or keeps it no longer.</p>;
 }
 
 function Details({ job }: { job: Job }) {
@@ -56,6 +56,11 @@ function Tools({ job }: { job: Job }) {
       >
         <Icon name="copy" /> Clone
       </button>
+      {ended && (
+        <button title="Shift+Delete in the job list" onClick={() => remove(job)}>
+          <Icon name="close" /> Remove
+        </button>
+      )}
     </div>
   );
 }

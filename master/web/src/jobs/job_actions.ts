@@ -42,6 +42,15 @@ export function cancel(job: Job): void {
   });
 }
 
+export function remove(job: Job): void {
+  confirm({
+    title: `Remove job ${job.id}?`,
+    text: `The farm forgets ${job.name} for good, with its pictures.`,
+    yes: "Remove the job",
+    run: () => void postJson(`/jobs/${job.id}/remove`).catch(tellError),
+  });
+}
+
 /// Moves the focus into the job list, which may have to appear first.
 function focusList(): void {
   panelsShown.value = columnShown.value = true;
@@ -76,6 +85,15 @@ const jobActions: Action[] = [
     scope: "jobs",
     enabled: isActive,
     run: onJob(cancel),
+  },
+  {
+    id: "job-remove",
+    title: "Remove the job, which has ended",
+    group: "Jobs",
+    keys: ["Shift+Delete"],
+    scope: "jobs",
+    enabled: () => selectedJob.value !== null && hasEnded(selectedJob.value),
+    run: onJob(remove),
   },
   {
     id: "job-clone",
