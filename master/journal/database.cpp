@@ -86,6 +86,7 @@ void make_schema(SQLite::Database& database, const std::filesystem::path& file) 
 
 Database::Database(const std::filesystem::path& file) try
     : sqlite_(made(file), SQLite::OPEN_READWRITE, patience_ms) {
+  sqlite_.exec("PRAGMA auto_vacuum = INCREMENTAL");  // counts for a new file only
   sqlite_.exec("PRAGMA journal_mode = WAL");
   sqlite_.exec("PRAGMA synchronous = NORMAL");    // WalSync syncs, on its thread
   sqlite_.exec("PRAGMA wal_autocheckpoint = 0");  // and moves the log into the file

@@ -4,6 +4,8 @@
 // power, as a thread of the journal's own syncs the write-ahead log. Scenes and assets are kept once, by hash; pixels
 // compressed; both, and every row that a picture depends on, with a checksum: what is damaged is left out, never taken
 // for sound. A log that lost its end is noticed, too. What the farm drops is deleted, and its place is used again.
+// Where more than a third of the file is free, each write makes it 1 MB smaller (one that was made before rayfarm did so
+// keeps its size).
 //
 // Opening costs a few microseconds a tile: pixels are read when they are needed.
 #pragma once

@@ -52,6 +52,8 @@ struct Journal::State {
   void write(const WorkerBanned& banned);
   void write(const WorkerKnown& known);
   void keep_blob(FrameId user, const std::string& hash, const SharedBytes& bytes);
+  /// Some of the file's end, when much of it is free.
+  void give_back_room();
   void drop_scene(FrameId id);
   void drop_tiles(FrameId id);
 

@@ -4,6 +4,8 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "common/net/codec.h"
 #include "tests/master/farm/rebuilt_farm.h"
 #include "tests/master/journal/kept_farm.h"
@@ -104,6 +106,94 @@ TEST(Journal, DeletesWhatTheFarmDrops) {
   Farm before = std::move(kept.farm());
   kept.crash();
   expect_same(before, kept.farm(), 20s);
+}
+
+/// Of the file, once its log is in it.
+std::int64_t bytes_of(const KeptFarm& kept) {
+  SQLite::Database database(kept.file().string());
+  return database.execAndGet("PRAGMA page_count").getInt64() *
+         database.execAndGet("PRAGMA page_size").getInt64();
+}
+
+/// Rows that no job needs.
+std::int64_t orphans(const KeptFarm& kept) {
+  return rows(kept.file(), "frames WHERE job NOT IN (SELECT id FROM jobs)") +
+         rows(kept.file(), "tiles WHERE job NOT IN (SELECT id FROM jobs)") +
+         rows(kept.file(), "pixels WHERE id NOT IN (SELECT id FROM tiles)") +
+         rows(kept.file(), "uses WHERE job NOT IN (SELECT id FROM jobs)") +
+         rows(kept.file(), "blobs WHERE hash NOT IN (SELECT hash FROM uses)");
+}
+
+/// With a scene of its own and an asset that it shares with every third one.
+JobSpec nth_job(int n, std::size_t asset_bytes = 1000) {
+  JobSpec spec = job_of(four_tiles, "picture", "scene " + std::to_string(n));
+  spec.assets = {{"asset " + std::to_string(n % 3),
+                  std::make_shared<const Bytes>(asset_bytes, static_cast<std::uint8_t>(n))}};
+  return spec;
+}
+
+TEST(Journal, HoldsNothingThatNoJobNeedsWhateverJobsGo) {
+  KeptFarm kept(FarmLimits{.film_bytes = 5 * 128 * 128 * 12, .jobs = 6, .job_age = 100s});
+  std::mt19937 random(1);
+  FarmTime now{};
+  for (int life = 0; life < 5; ++life) {
+    SCOPED_TRACE(life);
+    FakeWorker pc(kept.farm(), {.name = "pc"}, now);
+    for (int i = 0; i < 40; ++i) {
+      const auto one_of = [&](std::uint64_t n) { return random() % n; };
+      now += std::chrono::seconds(one_of(20));
+      kept.farm().tick(now);
+      if (one_of(3) != 0) kept.farm().submit(nth_job(i), now);
+      const std::vector<JobView> jobs = kept.farm().jobs(now);
+      if (jobs.empty()) continue;
+      const JobId job = jobs[one_of(jobs.size())].id;
+      if (one_of(4) == 0) kept.farm().remove(job);
+      if (one_of(8) == 0) kept.farm().pause(job, now);
+      if (one_of(8) == 0) kept.farm().cancel(job, now);
+      for (std::uint64_t tiles = one_of(8); tiles > 0 && !pc.held().empty(); --tiles) pc.finish_one(now);
+      kept.keep();
+      ASSERT_EQ(orphans(kept), 0);
+      ASSERT_EQ(rows(kept.file(), "jobs"), static_cast<std::int64_t>(kept.farm().jobs(now).size()));
+    }
+    kept.keep();
+    Farm before = std::move(kept.farm());
+    kept.crash();
+    expect_same(before, kept.farm(), now);
+  }
+}
+
+TEST(Journal, DoesNotGrowWhileJobsComeAndGo) {
+  KeptFarm kept(FarmLimits{.jobs = 4});
+  FakeWorker pc(kept.farm(), {.name = "pc"}, 1s);
+  std::int64_t after_ten = 0;
+  for (int n = 0; n < 60; ++n) {
+    kept.farm().submit(nth_job(n, 1 << 20), 1s);
+    pc.finish_all(1s);
+    kept.keep();
+    if (n == 10) after_ten = bytes_of(kept);
+  }
+  EXPECT_LE(bytes_of(kept), after_ten + (1 << 20));
+}
+
+TEST(Journal, GivesRoomBackWhenMuchOfItIsGone) {
+  KeptFarm kept;
+  FakeWorker pc(kept.farm(), {.name = "pc"}, 1s);
+  for (int n = 0; n < 3; ++n) kept.farm().submit(nth_job(n, 16 << 20), 1s);
+  const JobId last = kept.farm().submit(nth_job(3, 16 << 20), 1s);
+  pc.finish_all(1s);
+  kept.keep();
+  const std::int64_t full = bytes_of(kept);
+  EXPECT_GT(full, 48 << 20);
+  for (int n = 1; n <= 3; ++n) kept.farm().remove(JobId(n));
+  kept.keep();
+  for (int n = 0; n < 60; ++n) {
+    kept.farm().cancel(kept.farm().submit(job_of(four_tiles), 2s), 2s);
+    kept.keep();
+  }
+  EXPECT_LT(bytes_of(kept), full - (12 << 20));
+  kept.crash();
+  EXPECT_EQ(kept.farm().film(last)->rgb(), made_up_picture(last, four_tiles));
+  EXPECT_EQ(kept.farm().assets(last).at(0).bytes->size(), std::size_t{16} << 20);
 }
 
 TEST(Journal, KnowsWhomToTrustAndWhatWasWasted) {
