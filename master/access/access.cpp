@@ -9,6 +9,7 @@ namespace {
 
 constexpr auto certificate_lifetime = std::chrono::years(10);  // revoking ends it, not time
 constexpr auto session_lifetime = std::chrono::days(7);
+constexpr std::size_t most_sessions = 20;  // with one token
 
 Credentials read(const std::filesystem::path& file) {
   const std::optional<std::string> text = read_private_file(file);
@@ -132,13 +133,18 @@ void Access::check_worker(const CertificateFacts& certificate, WallTime now) con
 }
 
 /// A good one is never shut out: whoever shares its address (a proxy's, this PC's) may be wrong as often as they like.
+template <class Look>
+auto Access::look_up(const std::string& from, WallTime now, Look look) {
+  try {
+    return look();
+  } catch (const UnknownSecret&) {
+    return attempt(from, now, look);
+  }
+}
+
 Credential Access::check_person(const std::string& shown, const std::string& from, WallTime now) {
   const std::lock_guard lock(mutex_);
-  try {
-    return known_person(shown, now);
-  } catch (const UnknownSecret&) {
-    return attempt(from, now, [&] { return known_person(shown, now); });
-  }
+  return look_up(from, now, [&] { return known_person(shown, now); });
 }
 
 /// Of what a person shows. A browser may still have the cookie of another farm: that is no guess.
@@ -162,23 +168,58 @@ Credential Access::known_person(const std::string& shown, WallTime now) const {
   }
 }
 
+Issued Access::open_session(Credentials changed, const Credential& parent, WallTime until, WallTime now) {
+  Issued issued{{}, new_token(fingerprint_)};
+  issued.credential = changed.add({.id = {},
+                                   .kind = CredentialKind::session,
+                                   .role = parent.role,
+                                   .name = parent.name,
+                                   .proof = hash_of_secret(issued.token.secret),
+                                   .parent = parent.id,
+                                   .made = in_seconds(now),
+                                   .until = std::min(until, in_seconds(now) + session_lifetime)});
+  keep(std::move(changed));
+  return issued;
+}
+
 Issued Access::log_in(const std::string& shown, const std::string& from, WallTime now) {
   const std::lock_guard lock(mutex_);
   return attempt(from, now, [&] {
     Credentials changed = credentials_;
     const Credential link = changed.use(CredentialKind::login_link, proof_in(shown), now);
-    Issued issued{{}, new_token(fingerprint_)};
-    issued.credential = changed.add({.id = {},
-                                     .kind = CredentialKind::session,
-                                     .role = link.role,
-                                     .name = link.name,
-                                     .proof = hash_of_secret(issued.token.secret),
-                                     .parent = link.id,
-                                     .made = in_seconds(now),
-                                     .until = in_seconds(now) + session_lifetime});
-    keep(std::move(changed));
-    return issued;
+    return open_session(std::move(changed), link, WallTime::max(), now);
   });
+}
+
+Issued Access::log_in_with_token(const std::string& shown, const std::string& from, WallTime now) {
+  const std::lock_guard lock(mutex_);
+  const Credential token =
+      look_up(from, now, [&] { return credentials_.check(CredentialKind::token, proof_in(shown), now); });
+  Credentials changed = credentials_;
+  changed.keep_newest_of(token.id, most_sessions - 1);
+  return open_session(std::move(changed), token, token.until, now);
+}
+
+std::optional<Credential> Access::known_session(const std::string& shown, WallTime now) const {
+  try {
+    return credentials_.check(CredentialKind::session, proof_in(shown), now);
+  } catch (const AccessRefused&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<Credential> Access::session(const std::string& shown, WallTime now) const {
+  const std::lock_guard lock(mutex_);
+  return known_session(shown, now);
+}
+
+void Access::log_out(const std::string& shown, WallTime now) {
+  const std::lock_guard lock(mutex_);
+  const std::optional<Credential> session = known_session(shown, now);
+  if (!session) return;
+  Credentials changed = credentials_;
+  changed.revoke(session->id);
+  keep(std::move(changed));
 }
 
 }  // namespace rayfarm

@@ -7,6 +7,7 @@
 #pragma once
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "common/net/messages.h"
@@ -55,8 +56,16 @@ class Access {
   void check_worker(const CertificateFacts& certificate, WallTime now) const;
   /// Who shows this token, or cookie. Throws AccessRefused.
   Credential check_person(const std::string& shown, const std::string& from, WallTime now);
-  /// A session for who comes with this login link. Throws AccessRefused.
+
+  // Sessions of browsers: what they show is their cookie.
+  /// For who comes with the code of a login link. Throws AccessRefused.
   Issued log_in(const std::string& shown, const std::string& from, WallTime now);
+  /// For who has a token, no longer than that is good. Beyond 20 of them the first ends. Throws AccessRefused.
+  Issued log_in_with_token(const std::string& shown, const std::string& from, WallTime now);
+  /// Nothing when it is none, or none any more.
+  std::optional<Credential> session(const std::string& shown, WallTime now) const;
+  /// Ends it, if it is one. A token stays good, whoever shows it.
+  void log_out(const std::string& shown, WallTime now);
 
  private:
   void keep(Credentials changed);
@@ -64,8 +73,12 @@ class Access {
   std::string issue_certificate(const Join& asked, const Validity& validity) const;
   std::string proof_in(const std::string& shown) const;
   Credential known_person(const std::string& shown, WallTime now) const;
+  std::optional<Credential> known_session(const std::string& shown, WallTime now) const;
+  Issued open_session(Credentials changed, const Credential& parent, WallTime until, WallTime now);
   template <class Call>
   auto attempt(const std::string& from, WallTime now, Call call);
+  template <class Look>
+  auto look_up(const std::string& from, WallTime now, Look look);
 
   const std::filesystem::path folder_;
   Identity authority_, master_;

@@ -80,6 +80,12 @@ std::vector<Credential> Credentials::revoke(std::string_view id_or_name) {
   return revoked;
 }
 
+void Credentials::keep_newest_of(const std::string& parent, std::size_t most) {
+  const auto is_of_it = [&](const Credential& c) { return c.parent == parent; };
+  auto too_many = std::ranges::count_if(all_, is_of_it) - static_cast<std::ptrdiff_t>(most);
+  std::erase_if(all_, [&](const Credential& c) { return is_of_it(c) && too_many-- > 0; });
+}
+
 void Credentials::forget_ended(WallTime now) {
   std::erase_if(all_, [&](const Credential& c) { return now >= c.until + memory_of_ended; });
 }

@@ -4,7 +4,7 @@
 //   certificate    what a worker was given for it
 //   token          what a person's programs show
 //   login link     a browser becomes somebody's with it, once, soon
-//   session        the cookie that a browser was given for it
+//   session        the cookie that a browser was given for it, or for a token
 // Of what must stay secret only the hash is kept. Revoking one also revokes what it was exchanged for.
 #pragma once
 #include <chrono>
@@ -59,6 +59,8 @@ class Credentials {
   Credential check(CredentialKind kind, const std::string& proof, WallTime now) const;
   /// By id, or the name of a worker; also what came of it. All that was revoked by that.
   std::vector<Credential> revoke(std::string_view id_or_name);
+  /// Of those that this was exchanged for only so many stay, the last ones.
+  void keep_newest_of(const std::string& parent, std::size_t most);
   /// Forgets what ended long ago.
   void forget_ended(WallTime now);
 

@@ -122,7 +122,8 @@ void add_token_command(CLI::App& app, Command& chosen) {
 
   const auto name = std::make_shared<std::string>();
   CLI::App* revoke = token->add_subcommand(
-      "revoke", "End one at once, with what it was exchanged for: a code's workers, a link's sessions");
+      "revoke",
+      "End one at once, with what it was exchanged for: a code's workers, a link's or token's sessions");
   revoke->add_option("ID", *name, "As token list shows it, or the name of a paired worker")->required();
   revoke->add_flag("--json", *as_json, "Answer as JSON");
   revoke->callback([=, &chosen] { chosen = [=] { return revoke_token(*name, *as_json); }; });

@@ -59,8 +59,7 @@ std::optional<ApiResponse> refusal(const ApiRequest& request, const ListenAddres
     return error_response(403, "pages from " + request.origin + " may not use this master");
   const bool from_here =
       request.fetch_site.empty() || request.fetch_site == "same-origin" || request.fetch_site == "none";
-  const bool may_be_linked_to = request.target == "/" || request.target.starts_with("/login?");
-  if (!from_here && !may_be_linked_to)  // the bare page holds nothing yet
+  if (!from_here && request.target != "/")  // the bare page holds nothing yet, and may be linked to
     return error_response(403, "pages from elsewhere may not use this master");
   if (request.method == "POST" && !is_json(request.content_type))
     return error_response(415, "POST wants Content-Type: application/json");

@@ -49,7 +49,6 @@ Response http_response(const ApiResponse& answer, const RequestParser::value_typ
   response.set(http::field::cache_control, words_of(answer.caching));
   if (!answer.cookie.empty()) response.set(http::field::set_cookie, answer.cookie);
   if (answer.status == 401) response.set(http::field::www_authenticate, "Bearer");  // RFC 9110, 15.5.2
-  if (!answer.location.empty()) response.set(http::field::location, answer.location);
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
   response.set("Content-Security-Policy",

@@ -62,7 +62,7 @@ struct ApiResponse {
   std::string content_type = "application/json";
   Body body;
   Caching caching = Caching::never;
-  std::string cookie{}, location{};  // header fields; empty: not there
+  std::string cookie{};  // to be set; empty: none
 };
 
 ApiResponse error_response(unsigned status, const std::string& message);

@@ -9,6 +9,8 @@
 namespace rayfarm {
 namespace {
 
+using nlohmann::json;
+
 ApiResponse show_version(const Call&) {
   return shown({{"version", RAYFARM_VERSION}, {"api", 1}, {"protocol", protocol_version}});
 }
@@ -19,48 +21,54 @@ ApiResponse refuse_plain_live(const Call&) {
   return error_response(426, "this is a WebSocket: ask for the upgrade");
 }
 
-/// A browser becomes somebody. Why it does not, only the log says.
+json to_json(const Credential& person) { return {{"role", name_of(person.role)}, {"name", person.name}}; }
+
+/// {"code": "..."} of a login link, or {"token": "..."}: a browser becomes somebody, whom it remembers where no page's
+/// script can read it. Why it does not, only the log says.
 ApiResponse log_in(const Call& call) {
-  const auto code = call.query.find("code");
-  if (code == call.query.end() || !call.doors.access) throw ApiError(404, "this is no login link");
+  const json body = body_of(call);
+  const bool with_code = body.contains("code"), with_token = body.contains("token");
+  if (body.size() != 1 || with_code == with_token || !body.begin()->is_string())
+    throw ApiError(422, "a login brings a code or a token, and nothing else");
+  if (!call.doors.access) throw ApiError(409, "this master keeps no keys, so there is no login");
+  Access& access = *call.doors.access;
+  const std::string secret = *body.begin(), &from = call.request.from;
+  const WallTime now = std::chrono::system_clock::now();
   try {
     const Issued session =
-        call.doors.access->log_in(code->second, call.request.from, std::chrono::system_clock::now());
-    ApiResponse to_app{303, "text/plain", "logged in\n"};
-    to_app.cookie = session_cookie(text_of(session.token), call.request.is_encrypted);
-    to_app.location = "/";
-    return to_app;
+        with_code ? access.log_in(secret, from, now) : access.log_in_with_token(secret, from, now);
+    ApiResponse welcome = shown(to_json(session.credential));
+    welcome.cookie = session_cookie(text_of(session.token), call.request.is_encrypted);
+    return welcome;
   } catch (const AccessRefused& refused) {
-    call.doors.master.tell("no login at " + call.request.from + ": " + refused.what());
-    throw ApiError(403, "this login link is not good, or no longer: ask for a new one");
+    call.doors.master.tell("no login at " + from + ": " + refused.what());
+    throw ApiError(403, std::string(with_code ? "this login link" : "this token") +
+                            " is not good, or no longer: ask for a new one");
   }
 }
 
-/// As with a link, for who has a token: the browser keeps it where no page's script can read it.
-ApiResponse log_in_with_token(const Call& call) {
-  const nlohmann::json body = body_of(call);
-  if (body.size() != 1 || !body.contains("token") || !body["token"].is_string())
-    throw ApiError(422, "a login brings a token, and nothing else");
-  if (!call.doors.access) throw ApiError(409, "this master keeps no keys, so there are no tokens");
-  try {
-    const std::string token = body["token"];
-    const Credential person =
-        call.doors.access->check_person(token, call.request.from, std::chrono::system_clock::now());
-    ApiResponse welcome = shown({{"role", name_of(person.role)}, {"name", person.name}});
-    welcome.cookie = session_cookie(text_of(parse_token(token)), call.request.is_encrypted);
-    return welcome;
-  } catch (const AccessRefused& refused) {
-    call.doors.master.tell("no login at " + call.request.from + ": " + refused.what());
-    throw ApiError(403, "this token is not good, or no longer: ask for a new one");
-  }
+ApiResponse show_login(const Call& call) {
+  std::optional<Credential> session;
+  if (call.doors.access)
+    session = call.doors.access->session(session_shown(call.request), std::chrono::system_clock::now());
+  return shown({{"session", session ? to_json(*session) : json()}});
+}
+
+ApiResponse log_out(const Call& call) {
+  if (call.doors.access)
+    call.doors.access->log_out(session_shown(call.request), std::chrono::system_clock::now());
+  ApiResponse farewell = shown(json::object());
+  farewell.cookie = no_session_cookie(call.request.is_encrypted);
+  return farewell;
 }
 
 constexpr Route routes[]{
     {"GET", "/api/v1/version", show_version, Work::command, command_limit, Needs::nothing},
     {"GET", "/api/v1/openapi.json", show_openapi, Work::command, command_limit, Needs::nothing},
     {"GET", "/api/v1/live", refuse_plain_live},
-    {"GET", "/login?code", log_in, Work::command, command_limit, Needs::nothing},
-    {"POST", "/api/v1/login", log_in_with_token, Work::command, command_limit, Needs::nothing},
+    {"GET", "/api/v1/login", show_login, Work::command, command_limit, Needs::nothing},
+    {"POST", "/api/v1/login", log_in, Work::command, command_limit, Needs::nothing},
+    {"POST", "/api/v1/logout", log_out, Work::command, command_limit, Needs::nothing},
 };
 
 }  // namespace

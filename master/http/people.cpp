@@ -8,8 +8,22 @@ namespace {
 constexpr std::string_view bearer = "Bearer ";
 constexpr std::string_view cookie_name = "rayfarm=";
 
+std::string shown_by(const ApiRequest& request) {
+  if (request.authorization.starts_with(bearer)) return request.authorization.substr(bearer.size());
+  return session_shown(request);
+}
+
+std::string cookie_with(const std::string& value, int seconds, bool is_encrypted) {
+  return std::string(cookie_name) + value +
+         "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(seconds) +
+         (is_encrypted ? "; Secure" : "");
+}
+
+}  // namespace
+
 /// Of "a=1; rayfarm=XYZ; b=2": XYZ.
-std::string session_in(std::string_view cookies) {
+std::string session_shown(const ApiRequest& request) {
+  std::string_view cookies = request.cookie;
   while (!cookies.empty()) {
     const std::string_view one = cookies.substr(0, cookies.find(';'));
     cookies.remove_prefix(std::min(one.size() + 1, cookies.size()));
@@ -18,13 +32,6 @@ std::string session_in(std::string_view cookies) {
   }
   return "";
 }
-
-std::string shown_by(const ApiRequest& request) {
-  if (request.authorization.starts_with(bearer)) return request.authorization.substr(bearer.size());
-  return session_in(request.cookie);
-}
-
-}  // namespace
 
 std::optional<Asker> asker_of(const ApiRequest& request, Exposure exposure, Access* access,
                               const std::function<void(const std::string&)>& tell) {
@@ -53,8 +60,10 @@ std::optional<ApiResponse> denial(const std::optional<Asker>& asker, Role needed
 }
 
 std::string session_cookie(const std::string& token, bool is_encrypted) {
-  return std::string(cookie_name) + token + "; Path=/; HttpOnly; SameSite=Strict; Max-Age=604800" +
-         (is_encrypted ? "; Secure" : "");
+  constexpr int week = 7 * 24 * 3600;  // as long as a session
+  return cookie_with(token, week, is_encrypted);
 }
+
+std::string no_session_cookie(bool is_encrypted) { return cookie_with("", 0, is_encrypted); }
 
 }  // namespace rayfarm

@@ -22,7 +22,10 @@ std::optional<Asker> asker_of(const ApiRequest& request, Exposure exposure, Acce
 /// What they get instead of an answer when they are nobody, or too little for it; nothing when they may.
 std::optional<ApiResponse> denial(const std::optional<Asker>& asker, Role needed);
 
-/// The session cookie as the server sets it.
+/// What a browser shows of itself; empty: nothing.
+std::string session_shown(const ApiRequest& request);
+// The session cookie as the server sets it, and takes it away.
 std::string session_cookie(const std::string& token, bool is_encrypted);
+std::string no_session_cookie(bool is_encrypted);
 
 }  // namespace rayfarm

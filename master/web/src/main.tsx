@@ -5,6 +5,7 @@ import { registerGeneral } from "./app/general_actions";
 import { startKeys } from "./app/keys";
 import { goLive } from "./app/live";
 import { startRouting } from "./app/route";
+import { followLoginLink, startSession } from "./app/session";
 import { startTheme } from "./app/theme";
 import { startTitle } from "./app/title";
 import { registerJobs } from "./jobs/job_actions";
@@ -14,14 +15,17 @@ import { startThroughput } from "./workers/throughput";
 import "./app/style.css";
 
 startTheme();
+addEventListener("hashchange", () => void followLoginLink());
+const loggedIn = followLoginLink(); // before the address is read
 startRouting();
 startClock();
 startTitle();
+startSession();
 registerGeneral();
 registerJobs();
 registerRayActions();
 startSelection();
 startThroughput();
 startKeys();
-goLive();
+void loggedIn.then(goLive);
 render(<App />, document.getElementById("app")!);

@@ -157,6 +157,37 @@ TEST_F(TheAccess, KnowsPeopleByTheirTokensAndBrowsersByTheSessionsOfTheirLinks) 
   EXPECT_NO_THROW(access.log_in(text_of(another.token), "10.0.0.7", now)) << "none of these was a guess";
 }
 
+TEST_F(TheAccess, GivesABrowserASessionForATokenUntilItLogsOut) {
+  const Issued token = access.issue(
+      {.kind = CredentialKind::token, .role = Role::artist, .name = "Ann", .lifetime = std::chrono::hours(2)},
+      now);
+  const std::string shown = text_of(token.token);
+  const Issued session = access.log_in_with_token(shown, "10.0.0.7", now);
+  const std::string cookie = text_of(session.token);
+  EXPECT_EQ(session.credential.until, token.credential.until) << "no longer than the token";
+  EXPECT_EQ(access.session(cookie, now)->name, "Ann");
+  EXPECT_EQ(access.session(shown, now), std::nullopt) << "a token is no session";
+  EXPECT_EQ(access.session("", now), std::nullopt);
+  EXPECT_THROW(access.log_in_with_token(cookie, "10.0.0.7", now), AccessRefused) << "nor the reverse";
+
+  access.log_out(shown, now);
+  EXPECT_EQ(access.check_person(shown, "10.0.0.7", now).role, Role::artist) << "who logs out keeps the token";
+  access.log_out(cookie, now);
+  EXPECT_EQ(access.session(cookie, now), std::nullopt);
+  EXPECT_THROW(access.check_person(cookie, "10.0.0.7", now), AccessRefused);
+  access.log_out(cookie, now), access.log_out("hello", now);
+}
+
+TEST_F(TheAccess, KeepsTwentySessionsOfOneTokenTheNewest) {
+  const Issued token = access.issue({.kind = CredentialKind::token, .role = Role::viewer}, now);
+  const std::size_t before = access.list().size();
+  std::vector<std::string> cookies;
+  for (int i = 0; i < 50; ++i)
+    cookies.push_back(text_of(access.log_in_with_token(text_of(token.token), "10.0.0.7", now).token));
+  EXPECT_EQ(access.list().size(), before + 20);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(access.session(cookies[i], now).has_value(), i >= 30) << i;
+}
+
 TEST_F(TheAccess, MayBeAskedByManyAtOnce) {
   const auto come_and_go = [&] {
     for (int i = 0; i < 5; ++i) {

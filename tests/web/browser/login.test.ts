@@ -54,12 +54,41 @@ describe("a browser that the master does not know", () => {
     await wanted().waitFor();
   });
 
-  it("is somebody once it has opened a login link", async () => {
+  it("is somebody once it has opened a login link, until it logs out", async () => {
     await wanted().waitFor();
-    const { link } = await made("--role", "artist", "--link");
+    const { link } = await made("--role", "artist", "--name", "Ann", "--link");
+    for (let i = 0; i < 3; ++i) expect((await page.request.get(link!)).ok()).toBe(true); // as a chat program does
     await page.goto(link!);
     await connected().waitFor();
-    expect(new URL(page.url()).pathname).toBe("/");
+    expect(page.url()).not.toContain("login"); // nor in the history
     expect(await wanted().count()).toBe(0);
+
+    const leave = page.getByRole("button", { name: "Log out" });
+    expect(await leave.getAttribute("title")).toBe("You are Ann, artist");
+    await leave.click();
+    await wanted().waitFor();
+    expect(await leave.count()).toBe(0);
+    await page.goto(link!); // it was good once
+    await page.getByRole("alert").getByText("this login link is not good").first().waitFor();
+    await wanted().waitFor();
+  });
+
+  it("begins with a login link as well", async () => {
+    const { link } = await made("--role", "viewer", "--link");
+    const other = await openApp(link!);
+    await other.page.getByRole("img", { name: "connected" }).waitFor();
+    expect(other.complaints).toEqual([]);
+    await other.close();
+  });
+});
+
+describe("a browser that the master lets in anyway", () => {
+  it("has nothing to log out of", async () => {
+    const open = await Farm.start();
+    const other = await openApp(open.url);
+    await other.page.getByRole("img", { name: "connected" }).waitFor();
+    expect(await other.page.getByRole("button", { name: "Log out" }).count()).toBe(0);
+    await other.close();
+    await open.stop();
   });
 });

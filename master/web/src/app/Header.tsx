@@ -3,6 +3,7 @@ import { actions } from "./actions";
 import { many, short } from "./format";
 import { Icon } from "./Icon";
 import { hashOf, page, routeTo, type Page } from "./route";
+import { logOut, person } from "./session";
 import { jobs, link, raysShown, workers } from "./state";
 import { theme } from "./theme";
 import { rates } from "../workers/throughput";
@@ -61,6 +62,15 @@ export function Header() {
         <Tool id="rays" icon="rays" pressed={raysShown.value} />
         <Tool id="theme" icon={theme.value === "dark" ? "sun" : "moon"} />
         <Tool id="help" text="?" />
+        {person.value && (
+          <button
+            class="plain"
+            title={`You are ${person.value.name ? `${person.value.name}, ` : ""}${person.value.role}`}
+            onClick={logOut}
+          >
+            Log out
+          </button>
+        )}
       </div>
     </header>
   );

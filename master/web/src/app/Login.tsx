@@ -1,7 +1,6 @@
 // Over the app while the master does not know who this browser is.
 import { useState } from "preact/hooks";
-import { postJson } from "./api";
-import { retry } from "./live";
+import { logIn, loginFault } from "./session";
 import { loginWanted } from "./state";
 import "./login.css";
 
@@ -9,25 +8,16 @@ export function Login() {
   return loginWanted.value ? <LoginForm /> : null;
 }
 
-/// The token goes into a cookie that no script can read; the master says what is wrong with it.
+/// The master says what is wrong with the token.
 function LoginForm() {
   const [token, setToken] = useState("");
-  const [fault, setFault] = useState("");
-  async function logIn() {
-    try {
-      await postJson("/login", { token: token.trim() });
-      loginWanted.value = false;
-      retry();
-    } catch (error) {
-      setFault(error instanceof Error ? error.message : String(error));
-    }
-  }
+  const fault = loginFault.value;
   return (
     <section class="login" aria-label="Login">
       <form
         onSubmit={(event) => {
           event.preventDefault();
-          void logIn();
+          void logIn({ token: token.trim() });
         }}
       >
         <h1>This farm wants a login</h1>

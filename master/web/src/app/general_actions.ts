@@ -4,6 +4,7 @@ import { helpShown } from "./Help";
 import { columnShown, panelsShown, raysBeside, raysPlace } from "./layout";
 import { openPalette } from "./Palette";
 import { openSubmit, page } from "./route";
+import { logOut, person } from "./session";
 import { raysShown } from "./state";
 import { toggleTheme } from "./theme";
 
@@ -73,6 +74,14 @@ export const registerGeneral = (): (() => void) =>
       group: "General",
       keys: ["Shift+W"],
       run: () => (page.value = "workers"),
+    },
+    {
+      id: "log-out",
+      title: "Log out",
+      group: "General",
+      keys: [],
+      enabled: () => person.value !== null,
+      run: logOut,
     },
     { id: "page-submit", title: "New job", group: "Jobs", keys: ["Shift+N"], run: () => openSubmit() },
   ]);
