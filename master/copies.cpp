@@ -91,7 +91,9 @@ double Farm::State::note_held(const Worker& holder, FarmTime now,
   std::size_t i = 0;
   for (const auto& [id, lease] : holder.leases) {
     by_job[lease.job].push_back(
-        {id, &lease, {static_cast<std::uint64_t>(holder.id), left[i], costs[i], work[i].spent}});
+        {id,
+         &lease,
+         {static_cast<std::uint64_t>(holder.id), left[i], costs[i], work[i].spent, lease.piece.has_value()}});
     ++i;
   }
   return time_until_free(left, holder.info.threads);
@@ -125,7 +127,8 @@ void Farm::State::copy_stragglers(const Job& job, std::vector<Held> held, const 
   std::vector<IdleWorker> idle;
   for (const Helper& helper : helpers)
     idle.push_back({static_cast<std::uint64_t>(helper.worker->id), expected_speed(*helper.worker, job),
-                    refuses(*helper.worker, job.id) ? 0 : helper.threads, busy.at(helper.worker->id)});
+                    refuses(*helper.worker, job.id) ? 0 : helper.threads, busy.at(helper.worker->id),
+                    helper.worker->info.takes_pieces});
   for (const Copy& copy : copies_of(stragglers, idle))
     give_copy(workers.at(WorkerId{stragglers[copy.straggler].holder}), held[copy.straggler].id,
               *helpers[copy.worker].worker, now);

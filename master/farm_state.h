@@ -34,7 +34,7 @@ struct Split {
   std::size_t missing = 0;  // pieces that are not there
   /// Who renders the whole, too; whoever is first ends the other.
   std::optional<Lease::Twin> original{};
-  FarmTime expected{};  // when that one is expected to be done
+  FarmTime expected{};  // when that one is expected to be done, or was when it was taken away
 };
 
 struct Farm::State {
@@ -164,7 +164,9 @@ struct Farm::State {
   /// To a thread without anything to do; nothing of less priority than what else it might do.
   bool give_share(Worker& worker, const Job* other, FarmTime now);
   void give_piece(Worker& worker, SplitId id, std::size_t place, FarmTime now);
-  /// To one that takes no pieces, when nobody is there who does.
+  bool is_doubled(SplitId id) const;  // somebody does a piece of it a second time
+  /// To one that takes no pieces: when nobody is at one, or those who are do not come to an end.
+  bool may_go_whole(SplitId id, FarmTime now) const;
   void give_whole(Worker& worker, SplitId id, FarmTime now);
   void hear_piece(Worker& worker, const Lease& lease, Result result, FarmTime now);
   void put_together(SplitId id, Worker& last, FarmTime now);

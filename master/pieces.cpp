@@ -93,7 +93,7 @@ bool Farm::State::give_share(Worker& worker, const Job* other, FarmTime now) {
     const bool is_next = other == nullptr || job.spec.priority >= other->spec.priority;
     if (job.state != JobState::running || refuses(worker, job.id) || !is_next) continue;
     if (!worker.info.takes_pieces) {
-      if (split.original || is_in_work(split)) continue;
+      if (!may_go_whole(id, now)) continue;
       give_whole(worker, id, now);
       return true;
     }
@@ -120,6 +120,21 @@ void Farm::State::give_piece(Worker& worker, SplitId id, std::size_t place, Farm
               pixels_in(piece.area, split.work.passes) * job.spec.settings.spp, now};
   lease.piece = {id, place, piece.area};
   assign(worker, LeaseId{++last_lease}, std::move(lease));
+}
+
+bool Farm::State::is_doubled(SplitId id) const {
+  return std::ranges::any_of(workers, [id](const auto& worker) {
+    return std::ranges::any_of(worker.second.leases, [id](const auto& held) {
+      const Lease& lease = held.second;
+      return lease.piece && lease.piece->split == id && lease.twin;
+    });
+  });
+}
+
+bool Farm::State::may_go_whole(SplitId id, FarmTime now) const {
+  const Split& split = splits.at(id);
+  if (split.original) return false;
+  return !is_in_work(split) || (now > split.expected && !is_doubled(id));
 }
 
 void Farm::State::give_whole(Worker& worker, SplitId id, FarmTime now) {

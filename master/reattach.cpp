@@ -92,7 +92,7 @@ bool Farm::State::reattach_as_whole(Worker& worker, const Assignment& work, Farm
   for (const auto& [id, split] : splits) {
     const bool is_it = split.frame == FrameId{work.job, work.frame} && split.work.tile == work.tile &&
                        (split.work.passes & ~work.passes) == 0;
-    if (!is_it || split.original) continue;
+    if (!is_it || split.original || is_doubled(id)) continue;
     give_whole(worker, id, now);
     return true;
   }

@@ -69,6 +69,7 @@ std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<con
     for (std::size_t i = first; i < fastest.size(); ++i) {
       const std::size_t w = fastest[i];
       if (threads[w] == 0 || idle[w].id == stragglers[s].holder) continue;
+      if (stragglers[s].is_piece && !idle[w].takes_pieces) continue;
       const double seconds = expected_seconds(stragglers[s].cost, idle[w].speed);
       if (seconds >= stragglers[s].time_left) break;  // the others are no faster
       if (idle[w].busy + seconds >= stragglers[s].time_left) continue;

@@ -36,6 +36,7 @@ struct Straggler {
   double time_left = 0;           // seconds
   double cost = 0;                // rays; 0: unknown
   std::optional<double> spent{};  // seconds since it was begun; none: it waits for a thread
+  bool is_piece = false;          // of a tile
 };
 /// Their places in the list.
 std::vector<std::size_t> latest_first(std::span<const Straggler> stragglers);
@@ -44,6 +45,7 @@ struct IdleWorker {
   double speed = 0;           // rays a second of one thread; 0: unknown
   std::uint32_t threads = 0;  // that may take one each
   double busy = 0;            // seconds until they can begin
+  bool takes_pieces = true;
 };
 /// Who does what again, by their places in the lists.
 struct Copy {
@@ -52,7 +54,7 @@ struct Copy {
 };
 /// When the first thread has nothing more to do, in seconds: of a worker that holds work which takes so long to end.
 double time_until_free(std::vector<double> times_left, std::uint32_t threads);
-/// What ends last first, by the fastest that has a thread free and would be sooner; never by its holder. O(n log n).
+/// What ends last first, by the fastest that has a thread free, can do it and would be sooner; never by its holder. O(n log n).
 std::vector<Copy> copies_of(std::span<const Straggler> stragglers, std::span<const IdleWorker> idle);
 
 }  // namespace rayfarm

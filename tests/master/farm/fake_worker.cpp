@@ -1,5 +1,7 @@
 #include "tests/master/farm/fake_worker.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -69,6 +71,7 @@ bool add_frame(Farm& farm, JobId job, std::uint32_t frame, FarmTime now) {
 }
 
 struct FakeWorker::Desk {
+  bool takes_pieces = false;
   std::vector<ToWorker> messages;
   std::vector<HeldAssignment> held;
   std::map<JobId, Size> jobs;
@@ -77,6 +80,7 @@ struct FakeWorker::Desk {
     if (const auto* assignment = std::get_if<Assignment>(&message)) {
       held.push_back({*assignment});
     } else if (const auto* piece = std::get_if<PieceAssignment>(&message)) {
+      EXPECT_TRUE(takes_pieces);
       held.push_back({piece->work, piece->area});
     } else if (const auto* revoke = std::get_if<Revoke>(&message)) {
       for (const LeaseId lease : revoke->leases)
@@ -91,6 +95,7 @@ struct FakeWorker::Desk {
 
 FakeWorker::FakeWorker(Farm& farm, WorkerInfo info, FarmTime now)
     : farm_(&farm), desk_(std::make_shared<Desk>()) {
+  desk_->takes_pieces = info.takes_pieces;
   id_ = farm.add_worker(
       std::move(info), [desk = desk_](ToWorker m) { desk->take(std::move(m)); }, now);
 }

@@ -81,6 +81,18 @@ TEST(SharedTiles, GoWholeToAWorkerThatTakesNoPiecesWhenNobodyElseIsThere) {
   EXPECT_GT(shared.view(4s).rays_wasted, 0u) << "of the piece that was there";
 }
 
+// Pieces that were late were doubled by whoever was idle. Who speaks no pieces ends the conversation.
+TEST(SharedTiles, GoWholeToAWorkerThatTakesNoPiecesWhenThosePiecesNeverComeThatOthersHold) {
+  OneTile shared;
+  FakeWorker old(shared.farm, {.name = "old", .threads = 4}, 100ms);
+  EXPECT_TRUE(old.held().empty()) << "none is late";
+  for (FarmTime now = 200ms; now < 20s; now += 100ms) shared.farm.tick(now);
+  ASSERT_EQ(old.held().size(), 1u);
+  EXPECT_FALSE(old.held()[0].piece);
+  old.finish_one(20s);
+  shared.expect_done(20s);
+}
+
 TEST(SharedTiles, ArePausedResumedAndCancelledAsOthersAre) {
   for (const bool is_cancelled : {false, true}) {
     OneTile shared;

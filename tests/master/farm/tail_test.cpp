@@ -79,6 +79,14 @@ TEST(Tail, AFastWorkerThatIsBusyTooLongLeavesItToASlowerOne) {
             (std::vector<Copy>{{0, 0}}));
 }
 
+TEST(Tail, APieceGoesToOneThatTakesPieces) {
+  const IdleWorker old{.id = 2, .speed = 100, .threads = 1, .takes_pieces = false}, young{3, 50, 1};
+  EXPECT_EQ(copies_of(std::vector<Straggler>{{1, 5, 100, {}, true}}, std::vector{old, young}),
+            (std::vector<Copy>{{0, 1}}));
+  EXPECT_EQ(copies_of(std::vector<Straggler>{{1, 5, 100, {}, false}}, std::vector{old, young}),
+            (std::vector<Copy>{{0, 0}}));
+}
+
 TEST(Tail, WhateverTheNumbersEachWorkIsDoubledOnceAtMostByAnotherThatIsSoonerAndHasAThread) {
   std::mt19937 random(7);
   const auto chance = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
