@@ -160,7 +160,6 @@ void Farm::State::blame(const Lease& oldest, const std::string& identity, Canvas
   std::string who;
   for (const auto& [its_identity, victim] : victims)
     who += (who.empty() ? "" : ", ") + names[static_cast<std::size_t>(victim.name)];
-  revoke_everywhere(job.id, now);
   fail(job,
        "workers are lost again and again over " +
            (is_first ? "" : "tile " + std::to_string(oldest.work.tile) + " of ") + title_of(job, frame) +
@@ -184,6 +183,7 @@ void Farm::State::exonerate(std::uint64_t process) {
 }
 
 void Farm::State::fail(Job& job, std::string why, FarmTime now) {
+  revoke_everywhere(job.id, now);
   job.message = std::move(why);
   warn(title_of(job) + " failed: " + job.message);
   end(job, JobState::failed, now);

@@ -212,7 +212,6 @@ bool Farm::cancel(JobId id, FarmTime now) {
 bool Farm::fail(JobId id, std::string why, FarmTime now) {
   Job* job = state_->living_job(id);
   if (job == nullptr) return false;
-  state_->revoke_everywhere(id, now);
   state_->fail(*job, std::move(why), now);
   state_->fill_all(now);
   return true;

@@ -176,6 +176,24 @@ TEST(Farm, AJobThatEveryWorkerGaveBackHasFailed) {
   EXPECT_EQ(warnings_of(farm).size(), 1u);
 }
 
+// What it finished then was committed: a job that had failed was done, and its data were counted as freed twice.
+TEST(Farm, AJobThatFailsTakesBackWhatAStoppingWorkerMightFinish) {
+  Farm farm;
+  FakeWorker stopping(farm, {.name = "stopping"});
+  const JobId job = farm.submit(job_of({64, 64}), 0s);
+  FakeWorker small(farm, {.name = "small"});
+  FarmTime now{};
+  while (small.held().empty()) farm.tick(now += 1s);  // it is given a copy
+  const Assignment begun = stopping.held().at(0);
+  farm.receive(stopping.id(), GiveBack{}, now);
+  farm.receive(small.id(), GiveBack{{small.held()[0].lease}, "out of memory"}, now);
+  ASSERT_EQ(farm.job(job, now)->state, JobState::failed);
+  EXPECT_TRUE(stopping.held().empty());
+  farm.receive(stopping.id(), rendered(begun, {64, 64}), now);
+  EXPECT_EQ(farm.job(job, now)->state, JobState::failed);
+  EXPECT_EQ(farm.job(job, now)->pixels_done, 0u);
+}
+
 TEST(Farm, AJobOfWhichSomethingIsDoneDoesNotFail) {
   Farm farm;
   FakeWorker worker(farm, remote("pc"));
