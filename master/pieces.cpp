@@ -18,6 +18,12 @@ std::uint64_t pixels_in(const Tile& area, PassSet passes) {
   return pixels;
 }
 
+/// It is there, and of no use.
+void waste(Job& job, const Split::Piece& piece) {
+  job.time_wasted += piece.taken;
+  for (const PassImage& image : piece.images) job.rays_wasted += image.counters.rays();
+}
+
 /// Somebody renders a piece of it.
 bool is_in_work(const Split& split) {
   return std::ranges::any_of(split.pieces,
@@ -183,10 +189,7 @@ void Farm::State::put_together(SplitId id, Worker& last, FarmTime now) {
 void Farm::State::end_split(SplitId id, FarmTime now) {
   const Split split = std::move(splits.extract(id).mapped());
   Job& job = jobs.at(split.frame.job);
-  for (const Split::Piece& piece : split.pieces) {
-    job.time_wasted += piece.taken;
-    for (const PassImage& image : piece.images) job.rays_wasted += image.counters.rays();
-  }
+  for (const Split::Piece& piece : split.pieces) rayfarm::waste(job, piece);
   for (auto& [worker_id, worker] : workers) {
     Revoke revoke;
     for (const auto& [lease_id, lease] : worker.leases)
@@ -211,6 +214,9 @@ void Farm::State::lose_pieces_of(const KnownWorker& worker) {
   for (auto& [id, split] : splits)
     for (Split::Piece& piece : split.pieces) {
       if (piece.images.empty() || std::ranges::count(worker.names, piece.by) == 0) continue;
+      Job& job = jobs.at(split.frame.job);
+      rayfarm::waste(job, piece);
+      touch(job);
       piece = {piece.area};
       ++split.missing;
     }

@@ -180,6 +180,23 @@ TEST(SharedTiles, AResultOfAnotherAreaIsAFault) {
   EXPECT_THROW(outside.farm.receive(outside.a.id(), result, 1s), WorkerError);
 }
 
+TEST(SharedTiles, OfALiarNoPieceStaysAndItsTimeWasWasted) {
+  OneTile shared;
+  for (int i = 0; i < 3; ++i) shared.b.finish_one(1s);
+  shared.a.finish_one(1s);
+  PieceResult lie = rendered_piece(shared.b.held().at(0));
+  lie.result.images.pop_back();
+  EXPECT_THROW(shared.farm.receive(shared.b.id(), lie, 1s), WorkerError);
+  shared.farm.remove_worker(shared.b.id(), "it lied", 1s);
+  EXPECT_EQ(shared.view(1s).time_wasted, 4s) << "on three pieces, and the one it was caught with";
+  EXPECT_GT(shared.view(1s).rays_wasted, 0u);
+  int pieces = 1;
+  while (!shared.a.held().empty()) shared.a.finish_one(2s), ++pieces;
+  EXPECT_EQ(pieces, 16);
+  EXPECT_EQ(shared.view(2s).counters, made_up_counters(one_tile));
+  EXPECT_EQ(shared.farm.film(shared.job)->rgb(), made_up_picture(shared.job, one_tile));
+}
+
 TEST(SharedTiles, AreNoneOfAJobThatIsVerified) {
   Farm farm;
   FakeWorker a(farm, sharing("a", 4)), b(farm, sharing("b", 4));
