@@ -154,6 +154,11 @@ void Farm::State::blame(const Lease& oldest, const std::string& identity, Canvas
   if (lost.process != 0 && std::ranges::any_of(workers, is_alive)) return;  // on another connection
   Canvas::Victims& victims =
       is_first ? frame.canvas->lost_at_first : frame.canvas->lost_over[oldest.work.tile];
+  // Who was given its work before another was lost was lost with that one, not after it: by the network, when nothing was
+  // heard of it. One that fell may have fallen over the scene, which all load at once, but not over one tile.
+  const bool is_with_another =
+      std::ranges::any_of(victims, [&](const auto& v) { return oldest.given < v.second.lost; });
+  if (is_with_another && (lost.was_silent || !is_first)) return;
   victims[identity] = lost;
   frames_with_victims.insert({job.id, frame.number});
   if (victims.size() < most_victims) return;

@@ -55,7 +55,7 @@ WorkerId Farm::add_worker(WorkerInfo info, Send send, FarmTime now) {
   return id;
 }
 
-void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
+void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now, FarmTime silence) {
   Worker* const here = state_->worker_here(id);
   if (!here) return;
   Worker& worker = *here;
@@ -67,9 +67,10 @@ void Farm::remove_worker(WorkerId id, std::string reason, FarmTime now) {
     state_->tell("worker " + worker.info.name + " left" + what, worker.info.name);
   else
     state_->warn("worker " + worker.info.name + " lost" + what, worker.info.name);
-  if (worker.is_stopping || worker.was_caught) oldest.reset();
+  const bool did_it_hear = oldest && oldest->given <= now - silence;
+  if (worker.is_stopping || worker.was_caught || !did_it_hear) oldest.reset();
   const std::string identity = worker.identity;
-  const Canvas::Victim lost{worker.name, worker.info.process};
+  const Canvas::Victim lost{worker.name, worker.info.process, now, silence > FarmTime{}};
   state_->workers.erase(id);
   ++state_->revision;  // the last judge may be gone
   if (oldest) state_->blame(*oldest, identity, lost, now);

@@ -218,8 +218,9 @@ class Farm {
   /// is removed, and sent Goodbye.
   WorkerId add_worker(WorkerInfo info, Send send, FarmTime now);
   // The next four do nothing when the worker is no longer here.
-  /// Its leases go to the others, first of all. The reason is for people.
-  void remove_worker(WorkerId worker, std::string reason, FarmTime now);
+  /// Its leases go to the others, first of all. The reason is for people. Nothing was heard of it for so long: what it was
+  /// given since then is not what it was lost over.
+  void remove_worker(WorkerId worker, std::string reason, FarmTime now, FarmTime silence = {});
   /// Throws WorkerError if the result is not what its lease asked for, or the worker has no such lease. One result may
   /// still come after its lease was revoked: it counts while its tile is on trial, and is compared with what others
   /// delivered: a difference is a warning that names both.

@@ -41,6 +41,8 @@ struct Canvas {
   struct Victim {
     NameId name{};
     std::uint64_t process = 0;  // WorkerInfo::process
+    FarmTime lost{};
+    bool was_silent = false;  // before it was lost; else its connection broke
   };
   using Victims = std::map<std::string, Victim>;  // by identity
   Victims lost_at_first;                          // before any pixel was there

@@ -225,10 +225,14 @@ asio::awaitable<std::string> Sessions::serve(Channel channel, const Dialled* dia
   sessions_.insert(&session);
   if (dialled) session.connection.post(Heartbeat{});  // who dials begins: what comes tells plaintext from TLS
   std::string reason;
+  FarmTime silence{};
   try {
     auto loops = until_first_ends(session.connection.tend(), converse(session));
     co_await std::move(loops);
     reason = stopping_ ? "the master stops" : session.farewell;
+  } catch (const PeerSilent& error) {
+    reason = error.what();
+    silence = times_.connection.silence;
   } catch (const std::exception& error) {
     reason = error.what();
   }
@@ -237,7 +241,7 @@ asio::awaitable<std::string> Sessions::serve(Channel channel, const Dialled* dia
   if (!session.worker) co_return reason;
   farm_.apply([&](Farm& farm, FarmTime now) {
     if (stopping_) farm.receive(*session.worker, GiveBack{}, now);  // it is not lost, we stop
-    farm.remove_worker(*session.worker, reason, now);
+    farm.remove_worker(*session.worker, reason, now, silence);
   });
   co_return "";
 }

@@ -20,6 +20,10 @@ namespace rayfarm {
 struct ConnectionLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// Nobody knows since when it has heard nothing, either.
+struct PeerSilent : ConnectionLost {
+  using ConnectionLost::ConnectionLost;
+};
 
 /// One coroutine may read while another one writes. What ends a connection is thrown as asio::system_error, whatever it
 /// is; ConnectionLost when it is the encryption.

@@ -153,7 +153,7 @@ void Connection<In, Out>::expect_message_within(std::chrono::milliseconds patien
 template <class In, class Out>
 void Connection<In, Out>::check_deadlines(Clock::time_point now) const {
   if (ended_) throw ConnectionLost(*ended_);
-  if (now >= heard_ + times_.silence) throw ConnectionLost("it was silent for " + seconds(times_.silence));
+  if (now >= heard_ + times_.silence) throw PeerSilent("it was silent for " + seconds(times_.silence));
   if (frame_due_ && now >= *frame_due_) throw ConnectionLost("it sent half a message and no more in time");
   if (message_due_ && now >= *message_due_) throw ConnectionLost("it did not say what was expected in time");
   if (write_due_ && now >= *write_due_) throw ConnectionLost("it does not read what it is sent");

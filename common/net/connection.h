@@ -38,7 +38,7 @@ class Connection {
   void close(std::string reason);
 
   /// Sends what was posted and heartbeats, and watches the peer. Returns after finish(); throws
-  /// ConnectionLost when the peer is silent or slow, or the connection breaks.
+  /// PeerSilent, or ConnectionLost when the peer is slow or the connection breaks.
   asio::awaitable<void> tend();
   /// The next message other than Heartbeat. Throws ConnectionLost, or CodecError on what cannot be a message.
   asio::awaitable<In> receive();
