@@ -36,8 +36,9 @@ struct TileCommitted {
   PassSet passes = 0;
   std::string worker;
   FarmTime taken{}, at{};
-  RayCounters counters;           // of these passes
-  std::vector<PassImage> images;  // ignored when a farm is built again: it reads them when it needs them
+  RayCounters counters;                // of these passes
+  std::vector<PassImage> images;       // ignored when a farm is built again: it reads them when it needs them
+  std::vector<std::string> helpers{};  // the other workers that rendered pieces of it, each once
 };
 /// These passes were committed once, and are damaged.
 struct PassesLost {

@@ -255,7 +255,7 @@ struct Farm::State {
   /// What a delivery tells of the worker; the time that is believed.
   FarmTime book(Worker& worker, const Lease& lease, const Result& result, FarmTime now);
   void accept(Job& job, JobFrame& frame, const Work& work, std::vector<PassImage> images, NameId by,
-              FarmTime taken, FarmTime now);
+              FarmTime taken, FarmTime now, const std::vector<NameId>& helpers = {});
   void finish(Job& job, JobFrame& frame, FarmTime now);
   /// Of a piece when there is an area.
   void take_result(WorkerId id, Result result, std::optional<Tile> area, FarmTime now);

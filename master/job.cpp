@@ -176,6 +176,8 @@ void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now) {
     frame.counters += image.counters;
     job.counters += image.counters;
   }
+  for (const NameId helper : delivery.helpers)
+    canvas.parts[delivery.work.tile].push_back({delivery.work.passes, helper});
   tile.taken[std::countr_zero(delivery.work.passes)] = delivery.taken;
   frame.thread_time += delivery.taken;
   job.thread_time += delivery.taken;

@@ -47,7 +47,7 @@ struct Canvas {
   using Victims = std::map<std::string, Victim>;  // by identity
   Victims lost_at_first;                          // before any pixel was there
   std::map<std::uint32_t, Victims> lost_over;     // later, by the tile that they held longest
-  /// Who rendered pieces of passes that another brought to their end; not known after a restart.
+  /// Who rendered pieces of passes that another brought to their end.
   struct Part {
     PassSet passes = 0;
     NameId by{};
@@ -130,6 +130,7 @@ struct Delivery {
   const std::vector<PassImage>& images;
   NameId by{};
   FarmTime taken{};
+  const std::vector<NameId>& helpers;  // the others who rendered pieces of it, each once
 };
 /// Takes it into the frame's film.
 void commit(Job& job, JobFrame& frame, const Delivery& delivery, FarmTime now);

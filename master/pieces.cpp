@@ -173,6 +173,7 @@ void Farm::State::put_together(SplitId id, Worker& last, FarmTime now) {
   JobFrame& frame = frame_at(job, split.frame.frame);
   std::vector<Tile> areas;
   std::vector<std::vector<PassImage>> images;
+  std::vector<NameId> helpers;
   FarmTime taken{};
   for (Split::Piece& piece : split.pieces) {
     areas.push_back(piece.area);
@@ -180,10 +181,10 @@ void Farm::State::put_together(SplitId id, Worker& last, FarmTime now) {
     taken += piece.taken;
     if (const auto worker = workers.find(piece.worker); worker != workers.end())
       credit(worker->second, pixels_in(piece.area, split.work.passes));
-    if (piece.by != last.name) frame.canvas->parts[split.work.tile].push_back({split.work.passes, piece.by});
+    if (piece.by != last.name && std::ranges::count(helpers, piece.by) == 0) helpers.push_back(piece.by);
   }
   const Tile tile = tile_at(size_of(job.spec.settings), split.work.tile);
-  accept(job, frame, split.work, assembled(tile, areas, images), last.name, taken, now);
+  accept(job, frame, split.work, assembled(tile, areas, images), last.name, taken, now, helpers);
 }
 
 void Farm::State::end_split(SplitId id, FarmTime now) {

@@ -139,6 +139,9 @@ void Farm::State::restore(FarmRecord record) {
               set_done(job, frame, commit);
               const bool is_one_of_many = commit.worker == names.front();
               put_name(*frame.canvas, commit, is_one_of_many ? NameId{} : id_of_name(commit.worker));
+              for (const std::string& helper : commit.helpers)
+                if (helper != names.front())
+                  frame.canvas->parts[commit.tile].push_back({commit.passes, id_of_name(helper)});
             });
           },
           [&](const PassesLost& lost) {

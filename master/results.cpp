@@ -95,9 +95,11 @@ void Farm::State::credit(Worker& worker, std::uint64_t pixels) {
 }
 
 void Farm::State::accept(Job& job, JobFrame& frame, const Work& work, std::vector<PassImage> images,
-                         NameId by, FarmTime taken, FarmTime now) {
-  commit(job, frame, {work, images, by, taken}, now);
+                         NameId by, FarmTime taken, FarmTime now, const std::vector<NameId>& helpers) {
+  commit(job, frame, {work, images, by, taken, helpers}, now);
   const RayCounters counters = counters_of(images);
+  std::vector<std::string> helpers_names;
+  for (const NameId helper : helpers) helpers_names.push_back(names[static_cast<std::size_t>(helper)]);
   record(TileCommitted{{job.id, frame.number},
                        work.tile,
                        work.passes,
@@ -105,7 +107,8 @@ void Farm::State::accept(Job& job, JobFrame& frame, const Work& work, std::vecto
                        taken,
                        now,
                        counters,
-                       std::move(images)});
+                       std::move(images),
+                       std::move(helpers_names)});
   ++revision;
   if (is_complete(job, frame)) finish(job, frame, now);
 }

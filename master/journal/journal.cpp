@@ -117,11 +117,15 @@ void Journal::State::write(const FrameStarted& started) {
 
 void Journal::State::write(const TileCommitted& commit) {
   const std::int64_t id = ++last_tile;
-  const auto worker = workers.find(commit.worker);
+  const auto number = [&](const std::string& name) {
+    const auto worker = workers.find(name);
+    return worker == workers.end() ? 0 : static_cast<std::uint64_t>(worker->second);
+  };
+  std::vector<std::uint64_t> helpers;
+  for (const std::string& name : commit.helpers) helpers.push_back(number(name));
   const Bytes pixels = seal(pack_pixels(commit), key_of_pixels(id));
   database.run("INSERT INTO pixels VALUES (?, ?)", id, pixels);
-  const std::uint64_t by = worker == workers.end() ? 0 : static_cast<std::uint64_t>(worker->second);
-  const Bytes row = seal(encode_row(commit, by), key_of(commit.frame, id));
+  const Bytes row = seal(encode_row(commit, number(commit.worker), helpers), key_of(commit.frame, id));
   database.run("INSERT INTO tiles VALUES (?, ?, ?, ?)", number_of(commit.frame.job), commit.frame.frame, id,
                row);
 }

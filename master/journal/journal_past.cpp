@@ -127,8 +127,12 @@ void Journal::State::read_tiles(Opened& opened, FrameId id) try {
       continue;
     }
     TileRow row = decode_tile(id, *body);
-    const auto worker = worker_names.find(static_cast<std::int64_t>(row.worker));
-    row.commit.worker = worker == worker_names.end() ? "(one of many)" : worker->second;
+    const auto name = [&](std::uint64_t number) {
+      const auto worker = worker_names.find(static_cast<std::int64_t>(number));
+      return worker == worker_names.end() ? "(one of many)" : worker->second;
+    };
+    row.commit.worker = name(row.worker);
+    for (const std::uint64_t helper : row.helpers) row.commit.helpers.push_back(name(helper));
     opened.latest = std::max(opened.latest, row.commit.at);
     add(opened, std::move(row.commit));
   }

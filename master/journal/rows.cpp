@@ -154,7 +154,8 @@ Row decoded(ByteView bytes) {
 }
 
 /// A tile's row is read at every start: plain numbers, in this order.
-using TileNumbers = std::array<std::uint64_t, 13>;
+using TileNumbers = std::array<std::uint64_t, 13>;  // and after them the helpers'
+constexpr std::size_t most_helpers = 15;            // of 16 pieces the last is the worker's
 
 }  // namespace
 
@@ -216,7 +217,7 @@ PictureDropped decode_dropped(FrameId id, ByteView bytes) {
   return dropped;
 }
 
-Bytes encode_row(const TileCommitted& c, std::uint64_t worker) {
+Bytes encode_row(const TileCommitted& c, std::uint64_t worker, std::span<const std::uint64_t> helpers) {
   const RayCounters& n = c.counters;
   const TileNumbers numbers{c.tile,
                             c.passes,
@@ -231,16 +232,21 @@ Bytes encode_row(const TileCommitted& c, std::uint64_t worker) {
                             n.secondary_hits,
                             n.bad_samples,
                             n.lost};
-  Bytes bytes(sizeof numbers);
+  Bytes bytes(sizeof numbers + helpers.size_bytes());
   std::memcpy(bytes.data(), numbers.data(), sizeof numbers);
+  std::ranges::copy(std::as_bytes(helpers), reinterpret_cast<std::byte*>(bytes.data() + sizeof numbers));
   return bytes;
 }
 
 TileRow decode_tile(FrameId id, ByteView bytes) {
   TileNumbers n;
-  if (bytes.size() != sizeof n) throw CodecError("a tile's row has another size");
+  const std::size_t helpers = (bytes.size() - sizeof n) / sizeof(std::uint64_t);
+  if (bytes.size() < sizeof n || bytes.size() % sizeof(std::uint64_t) != 0 || helpers > most_helpers)
+    throw CodecError("a tile's row has another size");
   std::memcpy(n.data(), bytes.data(), sizeof n);
   TileRow row;
+  row.helpers.resize(helpers);
+  std::ranges::copy(bytes.subspan(sizeof n), reinterpret_cast<std::uint8_t*>(row.helpers.data()));
   row.commit.frame = id;
   if (n[0] > UINT32_MAX || n[1] == 0 || n[1] > all_passes)
     throw CodecError("a tile's row has a tile or passes that cannot be");

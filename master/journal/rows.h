@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,11 +37,12 @@ FrameRow decode_frame(ByteView bytes);
 Bytes encode_row(const PictureDropped& dropped);
 PictureDropped decode_dropped(FrameId id, ByteView bytes);
 
-/// Without its pixels; the worker by number.
-Bytes encode_row(const TileCommitted& commit, std::uint64_t worker);
+/// Without its pixels; workers by number.
+Bytes encode_row(const TileCommitted& commit, std::uint64_t worker, std::span<const std::uint64_t> helpers);
 struct TileRow {
-  TileCommitted commit;  // without the worker's name
+  TileCommitted commit;  // without the workers' names
   std::uint64_t worker = 0;
+  std::vector<std::uint64_t> helpers;
 };
 TileRow decode_tile(FrameId id, ByteView bytes);
 

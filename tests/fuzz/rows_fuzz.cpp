@@ -44,7 +44,7 @@ void fuzz(ByteView bytes) {
   if (table == 4)
     check(
         bytes, [](ByteView b) { return decode_tile(frame, b); },
-        [](const TileRow& row) { return encode_row(row.commit, row.worker); });
+        [](const TileRow& row) { return encode_row(row.commit, row.worker, row.helpers); });
   if (table == 5) check_tile(bytes);
 }
 

@@ -3,6 +3,7 @@
 //   fuzz_seeds FOLDER
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -129,7 +130,7 @@ void write_rows() {
   write_choice("rows", 2, "frame", encode_row(FrameRow{std::string(64, 'a'), {std::string(64, 'b')}}));
   write_choice("rows", 3, "dropped",
                encode_row(PictureDropped{frame, 8000, {1, 2, 3}, FarmTime(4), FarmTime(5)}));
-  const Bytes tile = encode_row(commit(), 1);
+  const Bytes tile = encode_row(commit(), 1, std::array<std::uint64_t, 2>{2, 3});
   write_choice("rows", 4, "tile", tile);
   Bytes with_pixels;
   append_u16(with_pixels, static_cast<std::uint16_t>(tile.size()));

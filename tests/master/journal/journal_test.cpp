@@ -265,6 +265,30 @@ TEST(Journal, KnowsAWorkerByItsCertificateWhateverItsName) {
   EXPECT_FALSE(kept.farm().objection_to("third", "c0"));
 }
 
+// Only who brought a shared tile to its end was known after a restart; pieces of one who lied stayed.
+TEST(Journal, KnowsAllWhoRenderedPiecesOfATile) {
+  KeptFarm kept;
+  const auto sharing = [](std::string name) {
+    return WorkerInfo{.name = std::move(name), .threads = 4, .takes_pieces = true};
+  };
+  FakeWorker liar(kept.farm(), sharing("liar")), honest(kept.farm(), sharing("honest"));
+  JobSpec two_frames = job_of({64, 64});
+  two_frames.frames = FrameRange{0, 1, 1};  // one is still to come: the job goes on
+  const JobId job = kept.farm().submit(std::move(two_frames), 1s);
+  liar.finish_one(2s);
+  kept.farm().remove_worker(liar.id(), "gone", 2s);
+  honest.finish_all(3s);
+  kept.keep();
+  kept.crash();
+  ASSERT_EQ(kept.farm().job(job, 4s)->pixels_done, 64u * 64);
+  ASSERT_EQ(kept.farm().job(job, 4s)->tiles_shared, 1u);
+  FakeWorker again(kept.farm(), sharing("liar"), 4s);
+  Result lie;
+  lie.lease = LeaseId{5};
+  EXPECT_THROW(kept.farm().receive(again.id(), lie, 4s), WorkerError);
+  EXPECT_EQ(kept.farm().job(job, 4s)->pixels_done, 0u);
+}
+
 TEST(Journal, NamesAJobThatWasLiveAtTwoCrashesInARow) {
   KeptFarm kept;
   const JobId suspect = kept.farm().submit(job_of(four_tiles), 1s);
