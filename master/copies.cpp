@@ -113,8 +113,12 @@ void Farm::State::copy_stragglers(const Job& job, std::vector<Held> held, const 
   for (const Held& h : held) pixels += h.lease->samples / job.spec.settings.spp;
   std::erase_if(held, [&](const Held& h) {
     const Lease& lease = *h.lease;
-    const bool is_done_twice =
-        lease.twin || lease.split || (lease.piece && splits.at(lease.piece->split).original);
+    // Not when the whole is with the same worker, which may be the one that is stuck.
+    const auto is_whole_elsewhere = [&](const std::optional<Lease::Twin>& original) {
+      return original && static_cast<std::uint64_t>(original->worker) != h.straggler.holder;
+    };
+    const bool is_done_twice = lease.twin || lease.split ||
+                               (lease.piece && is_whole_elsewhere(splits.at(lease.piece->split).original));
     return is_done_twice || lease.is_check;
   });
   // While something waits, only what would end after all of that.

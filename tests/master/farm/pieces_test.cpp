@@ -144,6 +144,25 @@ TEST(SharedTiles, AreTakenFromWhoIsFirst) {
   }
 }
 
+// The whole tile and all pieces of it were with one worker, which was doubled by nobody.
+TEST(SharedTiles, ThatOneWorkerHoldsAloneAreDoneByAnotherWhenItNeverAnswers) {
+  Farm farm;
+  FakeWorker stuck(farm, sharing("stuck", 8));
+  const JobId job = farm.submit(job_of({8 * 64, 64}), 0s);
+  for (int i = 0; i < 6; ++i) stuck.finish_one(1s);
+  FarmTime now = 1s;
+  while (stuck.held().size() <= 2 && now < 10s) farm.tick(now += 100ms);
+  ASSERT_FALSE(stuck.held()[0].piece) << "it was begun long ago";
+  ASSERT_TRUE(stuck.held().back().piece) << "six threads are free for it";
+  FakeWorker other(farm, sharing("other", 2), now);
+  while (farm.job(job, now)->state != JobState::done && now < 60s) {
+    farm.tick(now += 100ms);
+    other.finish_all(now);
+  }
+  EXPECT_EQ(farm.job(job, now)->state, JobState::done);
+  EXPECT_EQ(farm.job(job, now)->counters, made_up_counters({8 * 64, 64}));
+}
+
 TEST(SharedTiles, LosersThatComeLateAreComparedAndNoMismatch) {
   Begun begun;
   const HeldAssignment piece = begun.fast.held().at(3), whole = begun.slow.held().at(0);
