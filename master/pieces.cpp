@@ -43,6 +43,10 @@ bool Farm::State::share_stragglers(const Job& job, const std::vector<Held>& held
   }
   if (idle.empty()) return false;
 
+  const auto may_be_finished = [this](const Lease& lease) {
+    return lease.is_reattached ||
+           (lease.twin && workers.at(lease.twin->worker).leases.at(lease.twin->lease).is_reattached);
+  };
   // Of work that is done twice, the lease that will be there first.
   std::map<LeaseId, double> left;
   for (const Held& h : held) left[h.id] = h.straggler.time_left;
@@ -50,7 +54,7 @@ bool Farm::State::share_stragglers(const Job& job, const std::vector<Held>& held
   std::vector<Straggler> stragglers;
   for (const Held& h : held) {
     const Lease& lease = *h.lease;
-    if (lease.piece || lease.split) continue;
+    if (lease.piece || lease.split || may_be_finished(lease)) continue;
     if (lease.twin &&
         std::pair(left.at(lease.twin->lease), lease.twin->lease) < std::pair(left.at(h.id), h.id))
       continue;

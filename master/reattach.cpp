@@ -80,8 +80,10 @@ bool Farm::State::reattach_as_copy(Worker& worker, const Assignment& work, FarmT
     for (auto& [lease_id, lease] : holder.leases) {
       const bool is_it = lease.job == work.job && lease.frame == work.frame && lease.work.tile == work.tile &&
                          (lease.work.passes & ~work.passes) == 0;
-      if (!is_it || lease.twin || lease.is_check || lease.piece || lease.split || holder.id == worker.id)
-        continue;
+      if (!is_it || lease.is_check || lease.piece || lease.split || holder.id == worker.id) continue;
+      if (lease.twin && (lease.twin->worker == worker.id || lease.twin->lease < lease_id)) continue;
+      if (lease.twin)
+        end_twin(*std::exchange(lease.twin, {}), now);  // the younger of two: nearly for nothing
       give_copy(holder, lease_id, worker, now);
       return true;
     }
@@ -92,8 +94,13 @@ bool Farm::State::reattach_as_whole(Worker& worker, const Assignment& work, Farm
   for (const auto& [id, split] : splits) {
     const bool is_it = split.frame == FrameId{work.job, work.frame} && split.work.tile == work.tile &&
                        (split.work.passes & ~work.passes) == 0;
-    if (!is_it || split.original || is_doubled(id)) continue;
-    give_whole(worker, id, now);
+    if (!is_it || (!split.original && is_doubled(id))) continue;
+    if (!split.original) return give_whole(worker, id, now), true;
+    const Lease::Twin original = *split.original;
+    if (original.worker == worker.id) return false;
+    end_split(id, now);
+    workers.at(original.worker).leases.at(original.lease).split.reset();
+    give_copy(workers.at(original.worker), original.lease, worker, now);
     return true;
   }
   return false;

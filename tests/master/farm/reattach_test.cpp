@@ -77,6 +77,29 @@ TEST(Reattach, WhatIsFinishedIsAskedForThoughAnotherHoldsItButWhatIsNotIsLeftToT
   }
 }
 
+// It was forgotten, and rendered to its end by the others.
+TEST(Reattach, WhatIsFinishedIsAskedForThoughOthersShareOrDoubleItAndIsNotSharedAgain) {
+  for (const bool is_shared : {true, false}) {
+    Farm farm;
+    FakeWorker slow(farm, remote("slow", 1));
+    const JobId job = farm.submit(job_of({64, 64}), 0s);
+    FakeWorker other(farm, {.name = "other", .threads = 4, .takes_pieces = is_shared}, 100ms);
+    FarmTime now = 100ms;
+    while (other.held().empty() && now < 10s) farm.tick(now += 1s);
+    ASSERT_EQ(other.held().at(0).piece.has_value(), is_shared);
+    FakeWorker back(farm, remote("back", 1), now);
+    farm.receive(back.id(), Holds{{{{LeaseId{7}, job, 0, 0, all_passes}, true}}}, now);
+    farm.tick(now += 10ms);
+    ASSERT_EQ(back.held().size(), 1u);
+    EXPECT_FALSE(back.held()[0].piece);
+    EXPECT_TRUE(other.held().empty()) << "two are enough";
+    back.finish_one(now);
+    EXPECT_TRUE(slow.held().empty());
+    EXPECT_EQ(farm.job(job, now)->state, JobState::done);
+    EXPECT_EQ(farm.job(job, now)->counters, made_up_counters({64, 64}));
+  }
+}
+
 TEST(Reattach, WhatIsThereAlreadyIsUnneeded) {
   DeadMaster dead;
   FakeWorker other(dead.farm, remote("other"), 2s);
