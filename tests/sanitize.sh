@@ -9,6 +9,19 @@ sanitizer=$1
 build=$top/build/sanitize-${sanitizer//,/-}
 "$top/deploy/build.sh" "$build" -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DRAYFARM_SANITIZE="$sanitizer" -DRAYFARM_WEB=OFF
 
-export TSAN_OPTIONS="suppressions=$top/tests/tsan_suppressions.txt second_deadlock_stack=1"
-export UBSAN_OPTIONS=print_stacktrace=1
-ctest --test-dir "$build" --output-on-failure -E '^(Web\.|stability$)' "${@:2}"
+# To files: nobody reads the standard error of a program that its test kills.
+reports=$build/reports
+rm -rf -- "$reports"
+mkdir -- "$reports"
+export TSAN_OPTIONS="suppressions=$top/tests/tsan_suppressions.txt print_suppressions=0 second_deadlock_stack=1 log_path=$reports/thread"
+export ASAN_OPTIONS="log_path=$reports/address"
+export UBSAN_OPTIONS="print_stacktrace=1 log_path=$reports/undefined"
+failed=0
+ctest --test-dir "$build" --output-on-failure -E '^(Web\.|stability$)' "${@:2}" || failed=1
+for report in "$reports"/*; do
+  [ -e "$report" ] || continue
+  echo "--- ${report##*/}"
+  cat -- "$report"
+  failed=1
+done
+exit $failed
