@@ -26,7 +26,7 @@ const std::vector<BadInput> bad_inputs{
     {"MisspeltKey", scene_with("sphere{ radios = 2 }"), {}, {"scene.lua:5", "radios"}},
     {"NegativeRadius", scene_with("torus{ R = -1, r = 0.2 }"), {}, {"scene.lua:5", "torus"}},
     {"SingularTransform", scene_with("ball:scale(1, 0, 1)"), {}, {"scene.lua:5", "scale"}},
-    {"MemoryBomb", "local s = 'x'\nwhile true do s = s .. s end\n", {}, {"scene.lua", "memory"}},
+    {"MemoryBomb", "local s = ('x'):rep((1 << 31) - 1)\n", {}, {"scene.lua", "memory"}},
     {"NoScene", "", {}, {"scene.lua"}},
     {"NoPixels", scene_with("ball"), {"--size", "0x5"}, {"--size"}},
     {"TooManyPixels", scene_with("ball"), {"--size", "1000000x1000000"}, {"1000000"}},
