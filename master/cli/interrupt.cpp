@@ -2,12 +2,15 @@
 
 #include <signal.h>
 
+#include <atomic>
+
 namespace rayfarm {
 namespace {
 
-volatile sig_atomic_t interrupt_seen = 0;  // a signal handler can reach nothing but a global
+std::atomic<bool> interrupt_seen{false};  // a signal handler can reach nothing but a global
+static_assert(std::atomic<bool>::is_always_lock_free, "else a signal handler may not touch it");
 
-extern "C" void note_interrupt(int) { interrupt_seen = 1; }
+extern "C" void note_interrupt(int) { interrupt_seen = true; }
 
 }  // namespace
 
@@ -19,6 +22,6 @@ void note_interrupts() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-bool interrupted() { return interrupt_seen != 0; }
+bool interrupted() { return interrupt_seen; }
 
 }  // namespace rayfarm
