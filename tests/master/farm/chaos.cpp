@@ -102,7 +102,13 @@ void Chaos::come_back() {
   memories_.erase(which);
   const std::size_t before = players_.size();
   join_as(memory.info);
-  if (players_.size() > before) farm_->receive(players_.back().worker.id(), Holds{memory.held}, now_);
+  if (players_.size() > before) say_what_is_held(memory.held);
+}
+
+void Chaos::say_what_is_held(const std::vector<HeldTile>& held) {
+  for (const HeldTile& tile : held)
+    if (tile.is_finished) returned_to_.insert(tile.work.job);
+  farm_->receive(players_.back().worker.id(), Holds{held}, now_);
 }
 
 void Chaos::come_again(std::size_t who) {
@@ -113,7 +119,7 @@ void Chaos::come_again(std::size_t who) {
   remember(players_[who].worker);
   players_.erase(players_.begin() + static_cast<std::ptrdiff_t>(who));  // the farm removes it
   join_as(memory.info);
-  farm_->receive(players_.back().worker.id(), Holds{memory.held}, now_);
+  say_what_is_held(memory.held);
 }
 
 void Chaos::fall_silent() {
@@ -154,7 +160,7 @@ void Chaos::work() {
   if (who < players_.size()) hand_in(who, players_[who].worker.held()[0]);
 }
 
-void Chaos::hand_in(std::size_t who, const HeldAssignment& work) {
+void Chaos::hand_in(std::size_t who, const HeldAssignment work) {
   Player& player = players_[who];
   FakeWorker& worker = player.worker;
   const double seconds = 0.001 * static_cast<double>(chance(30));

@@ -46,6 +46,7 @@ class Chaos {
   void leave(std::size_t who);
   void stop(std::size_t who);
   void come_back();
+  void say_what_is_held(const std::vector<HeldTile>& held);
   /// While its old connection is still there.
   void come_again(std::size_t who);
   void fall_silent();
@@ -55,7 +56,7 @@ class Chaos {
   void answer_late();
   void break_the_rules();
   void give_back();
-  void hand_in(std::size_t who, const HeldAssignment& work);
+  void hand_in(std::size_t who, HeldAssignment work);
   void see_off_the_banned();
   std::size_t worker_with_work();
   void remember(const FakeWorker& worker);
@@ -87,6 +88,7 @@ class Chaos {
   std::map<JobId, Size> sizes_;
   std::map<JobId, std::vector<std::uint32_t>> to_come_;  // frames whose scenes have not come
   std::set<JobId> cancelled_, removed_;
+  std::set<JobId> returned_to_;  // while they are paused, what was finished may be handed in
   std::set<std::pair<WorkerId, JobId>> refused_;
   std::vector<std::pair<WorkerId, HeldAssignment>> once_held_;
   std::uint64_t names_ = 0;
