@@ -116,6 +116,7 @@ void Farm::State::end_lease(Worker& worker, LeaseId id, FarmTime now) {
   if (lease.split) return splits.at(*lease.split).original.reset();
   if (lease.piece) {
     splits.at(lease.piece->split).pieces[lease.piece->place].is_waiting = true;
+    splits_to_share.insert(lease.piece->split);
     return;
   }
   wait_again(job, lease.frame, lease.work);

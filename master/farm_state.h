@@ -69,6 +69,7 @@ struct Farm::State {
   TrialQueue asked_trials;  // exactly those that want none, but bear one more
   // A tile that is shared is leased in its frame's schedule; it is committed when all pieces are there.
   std::map<SplitId, Split> splits;
+  std::set<SplitId> splits_to_share;  // all of those whose pieces wait, and some that no longer are
   std::uint64_t last_split = 0;
   std::set<std::string, std::less<>> drained_names, banned_names;
   // By NameId: of all workers that there were, as films outlive them; the first stands for those that were not kept.
@@ -163,6 +164,8 @@ struct Farm::State {
   void split(const Held& straggler, std::uint32_t pieces, FarmTime now);
   /// To a thread without anything to do; nothing of less priority than what else it might do.
   bool give_share(Worker& worker, const Job* other, FarmTime now);
+  bool may_share(const Worker& worker, const Split& split, const Job* other) const;
+  bool give_some_piece(Worker& worker, const Job* other, FarmTime now);
   void give_piece(Worker& worker, SplitId id, std::size_t place, FarmTime now);
   bool is_doubled(SplitId id) const;  // somebody does a piece of it a second time
   /// To one that takes no pieces: when nobody is at one, or those who are do not come to an end.

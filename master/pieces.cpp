@@ -84,6 +84,7 @@ void Farm::State::split(const Held& straggler, std::uint32_t pieces, FarmTime no
   for (const Tile& area : pieces_of(tile_at(size_of(job.spec.settings), lease.work.tile), pieces))
     if (pixels_in(area, lease.work.passes) > 0) split.pieces.push_back({area});
   split.missing = split.pieces.size();
+  splits_to_share.insert(id);
   split.expected = now + farm_time(straggler.straggler.time_left);
   ++job.tiles_shared;
   touch(job);
@@ -98,23 +99,42 @@ void Farm::State::split(const Held& straggler, std::uint32_t pieces, FarmTime no
 
 bool Farm::State::give_share(Worker& worker, const Job* other, FarmTime now) {
   if (splits.empty() || !may_work(worker) || worker.leases.size() >= worker.info.threads) return false;
+  if (worker.info.takes_pieces) return give_some_piece(worker, other, now);
   for (const auto& [id, split] : splits) {
-    const Job& job = jobs.at(split.frame.job);
-    const bool is_next = other == nullptr || job.spec.priority >= other->spec.priority;
-    if (job.state != JobState::running || refuses(worker, job.id) || !is_next) continue;
-    if (!worker.info.takes_pieces) {
-      if (!may_go_whole(id, now)) continue;
-      give_whole(worker, id, now);
-      return true;
+    if (!may_share(worker, split, other) || !may_go_whole(id, now)) continue;
+    give_whole(worker, id, now);
+    return true;
+  }
+  return false;
+}
+
+bool Farm::State::may_share(const Worker& worker, const Split& split, const Job* other) const {
+  const Job& job = jobs.at(split.frame.job);
+  const bool is_next = other == nullptr || job.spec.priority >= other->spec.priority;
+  return job.state == JobState::running && !refuses(worker, job.id) && is_next;
+}
+
+bool Farm::State::give_some_piece(Worker& worker, const Job* other, FarmTime now) {
+  for (auto next = splits_to_share.begin(); next != splits_to_share.end();) {
+    const SplitId id = *next;
+    const auto found = splits.find(id);
+    const auto waiting = [&] {
+      return std::ranges::find(found->second.pieces, true, &Split::Piece::is_waiting);
+    };
+    if (found == splits.end() || waiting() == found->second.pieces.end()) {
+      next = splits_to_share.erase(next);
+      continue;
     }
-    const auto piece = std::ranges::find(split.pieces, true, &Split::Piece::is_waiting);
-    if (piece == split.pieces.end()) continue;
+    ++next;
+    const Split& split = found->second;
+    if (!may_share(worker, split, other)) continue;
+    const Job& job = jobs.at(split.frame.job);
     const double whole = expected_seconds(expected_rays(job, *frame_of(job, split.frame.frame), split.work),
                                           expected_speed(worker, job));
     const FarmTime seconds = farm_time(whole / static_cast<double>(split.pieces.size()));
     // Not to one so slow that who has the whole tile will be there first; that one may be late.
     if (split.original && now < split.expected && now + seconds > split.expected) continue;
-    give_piece(worker, id, static_cast<std::size_t>(piece - split.pieces.begin()), now);
+    give_piece(worker, id, static_cast<std::size_t>(waiting() - found->second.pieces.begin()), now);
     return true;
   }
   return false;
@@ -224,6 +244,7 @@ void Farm::State::lose_pieces_of(const KnownWorker& worker) {
       touch(job);
       piece = {piece.area};
       ++split.missing;
+      splits_to_share.insert(id);
     }
 }
 
