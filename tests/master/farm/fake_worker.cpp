@@ -1,8 +1,7 @@
 #include "tests/master/farm/fake_worker.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace rayfarm {
@@ -80,7 +79,7 @@ struct FakeWorker::Desk {
     if (const auto* assignment = std::get_if<Assignment>(&message)) {
       held.push_back({*assignment});
     } else if (const auto* piece = std::get_if<PieceAssignment>(&message)) {
-      EXPECT_TRUE(takes_pieces);
+      if (!takes_pieces) throw std::logic_error("a piece of a tile for who takes none");
       held.push_back({piece->work, piece->area});
     } else if (const auto* revoke = std::get_if<Revoke>(&message)) {
       for (const LeaseId lease : revoke->leases)
