@@ -16,7 +16,8 @@ class KeptJobs : public FarmPrograms {
   }
   Words listed() const {
     Words ids;
-    for (const auto& job : ask("/api/v1/jobs").at("jobs")) ids.push_back(job.at("id").dump());
+    const auto answer = ask("/api/v1/jobs");
+    for (const auto& job : answer.at("jobs")) ids.push_back(job.at("id").dump());
     return ids;
   }
   void expect_no_longer_kept(const std::string& id) {
