@@ -2,7 +2,6 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
-#include <sqlite3.h>
 #include <unistd.h>
 
 #include <array>
@@ -44,11 +43,11 @@ void put_mark(const std::filesystem::path& journal, std::int64_t writes) {
   if (!is_put) throw std::runtime_error(file.string() + ": " + std::strerror(error));
 }
 
-void empty_log(const std::filesystem::path& journal, int how) {
+/// That somebody else reads or writes is no fault: the next time will do. A statement, since sqlite3_wal_checkpoint_v2() does
+/// nothing in a connection that has not read yet, and says that all is well.
+void empty_log(const std::filesystem::path& journal, const char* how) {
   SQLite::Database database(journal.string(), SQLite::OPEN_READWRITE, patience_ms);
-  // Busy is no fault: the next time will do.
-  const int result = sqlite3_wal_checkpoint_v2(database.getHandle(), nullptr, how, nullptr, nullptr);
-  if (result != SQLITE_OK && result != SQLITE_BUSY) throw SQLite::Exception(database.getHandle(), result);
+  SQLite::Statement(database, std::string("PRAGMA wal_checkpoint(") + how + ")").executeStep();
 }
 
 }  // namespace
@@ -111,8 +110,8 @@ void WalSync::sync(std::int64_t writes) {
   std::error_code missing;
   const std::uintmax_t size = std::filesystem::file_size(log, missing);
   if (missing || size < large_log) return;
-  empty_log(journal_, SQLITE_CHECKPOINT_PASSIVE);
-  if (size >= huge_log) empty_log(journal_, SQLITE_CHECKPOINT_TRUNCATE);
+  empty_log(journal_, "PASSIVE");
+  if (size >= huge_log) empty_log(journal_, "TRUNCATE");
 }
 
 }  // namespace rayfarm

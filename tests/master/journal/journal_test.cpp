@@ -47,6 +47,24 @@ void live(Farm& farm) {
   farm.drain("pc", 11s), farm.ban("other", 11s);
 }
 
+// It had stayed in the log for ever, for a checkpoint of a connection that has not read yet does nothing.
+TEST(Journal, MovesALargeLogIntoItsFile) {
+  KeptFarm kept;
+  FakeWorker pc(kept.farm(), {.name = "pc"}, 1s);
+  const auto size = [&] { return std::filesystem::file_size(kept.file()); };
+  constexpr std::uintmax_t large = 4u << 20;
+  for (int jobs = 0; jobs < 3000 && size() < large; ++jobs) {
+    kept.farm().submit(job_of({512, 512}), 1s);
+    pc.finish_all(1s);
+    kept.keep();
+  }
+  EXPECT_GE(size(), large);
+  Farm before = std::move(kept.farm());
+  kept.close(), kept.open();
+  EXPECT_TRUE(kept.opened().warnings.empty());
+  expect_same(before, kept.farm(), 20s);
+}
+
 TEST(Journal, GivesTheSameFarmAgainAfterACrashAndAfterACleanEnd) {
   for (const bool is_crash : {true, false}) {
     SCOPED_TRACE(is_crash);
