@@ -8,11 +8,18 @@
 
 namespace rayfarm {
 
-std::string fault_of(const Image& image) {
-  const std::size_t pixels = std::size_t{image.width} * image.height;
-  if (pixels == 0) return "has no pixels";
-  if (pixels > max_image_pixels)
+std::string fault_of_image_size(std::size_t width, std::size_t height) {
+  if (width == 0 || height == 0) return "has no pixels";
+  if (width > max_image_side || height > max_image_side)
+    return "has a side of more than " + std::to_string(max_image_side) + " pixels";
+  if (width * height > max_image_pixels)
     return "has more than " + std::to_string(max_image_pixels >> 20) + " megapixels";
+  return {};
+}
+
+std::string fault_of(const Image& image) {
+  if (const std::string fault = fault_of_image_size(image.width, image.height); !fault.empty()) return fault;
+  const std::size_t pixels = std::size_t{image.width} * image.height;
   if (std::visit([](const auto& values) { return values.size(); }, image.values) != 3 * pixels)
     return "has not three values a pixel";
   if (const auto* linear = std::get_if<std::vector<float>>(&image.values))
@@ -21,22 +28,17 @@ std::string fault_of(const Image& image) {
   return {};
 }
 
-namespace {
-
-/// Source: IEC 61966-2-1 (sRGB).
-std::array<double, 256> linear_of_srgb() {
-  std::array<double, 256> linear;
-  for (std::size_t code = 0; code < linear.size(); ++code) {
-    const double x = static_cast<double>(code) / 255;
-    linear[code] = x <= 0.04045 ? x / 12.92 : deterministic::pow((x + 0.055) / 1.055, 2.4);
-  }
-  return linear;
+double linear_of_srgb(double code) {
+  return code <= 0.04045 ? code / 12.92 : deterministic::pow((code + 0.055) / 1.055, 2.4);
 }
 
-}  // namespace
-
 Vec3d linear_at(const Image& image, std::size_t x, std::size_t y) {
-  static const std::array<double, 256> linear = linear_of_srgb();
+  static const std::array<double, 256> linear = [] {
+    std::array<double, 256> of_code;
+    for (std::size_t code = 0; code < of_code.size(); ++code)
+      of_code[code] = linear_of_srgb(static_cast<double>(code) / 255);
+    return of_code;
+  }();
   const std::size_t first = 3 * (y * image.width + x);
   if (const auto* codes = std::get_if<std::vector<std::uint8_t>>(&image.values))
     return {linear[(*codes)[first]], linear[(*codes)[first + 1]], linear[(*codes)[first + 2]]};

@@ -19,10 +19,17 @@ struct Image {
 };
 
 constexpr std::size_t max_image_pixels = 64 << 20;
+constexpr std::size_t max_image_side = 64
+                                       << 10;  // a decoder takes memory by the row, before it sees any pixel
+
+/// The linear light of an sRGB code, both 0 to 1. Source: IEC 61966-2-1.
+double linear_of_srgb(double code);
 
 /// The linear light of a pixel.
 Vec3d linear_at(const Image& image, std::size_t x, std::size_t y);
 
+/// What makes an image of this size unusable; empty: nothing.
+std::string fault_of_image_size(std::size_t width, std::size_t height);
 /// What makes the image unusable; empty: nothing.
 std::string fault_of(const Image& image);
 

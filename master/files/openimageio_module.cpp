@@ -6,7 +6,6 @@
 #include <cassert>
 #include <memory>
 
-#include "common/math/deterministic.h"
 #include "master/files/image_module.h"
 
 namespace rayfarm {
@@ -162,10 +161,7 @@ std::vector<T> rgb_values(OIIO::ImageInput& in, const std::string& name) {
   return rgb;
 }
 
-float linear_of_srgb(float code) {
-  const double x = code;
-  return static_cast<float>(x <= 0.04045 ? x / 12.92 : deterministic::pow((x + 0.055) / 1.055, 2.4));
-}
+constexpr std::size_t max_stored_values = 4 * max_image_pixels;
 
 Image texture(const std::string& name, std::string_view bytes) {
   OIIO::attribute("threads", 1);  // the limited child may have no others
@@ -174,12 +170,15 @@ Image texture(const std::string& name, std::string_view bytes) {
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(name, nullptr, &memory);
   if (!in) throw FileError(name + " is no image that can be read: " + OIIO::geterror());
   const OIIO::ImageSpec spec = in->spec();
-  const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  if (spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64 || pixels > max_image_pixels)
-    throw FileError(name + " is larger than a texture may be: " + std::to_string(max_image_pixels >> 20) +
-                    " megapixels");
+  const auto width = static_cast<std::uint32_t>(spec.width), height = static_cast<std::uint32_t>(spec.height);
+  if (const std::string fault = fault_of_image_size(width, height); !fault.empty())
+    throw FileError(name + " " + fault);
+  if (spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64 ||
+      std::size_t{width} * height * static_cast<std::size_t>(spec.nchannels) > max_stored_values)
+    throw FileError(name + " is no flat image of 1 to 64 channels with at most " +
+                    std::to_string(max_stored_values >> 20) + " million values");
 
-  Image image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
+  Image image{width, height, {}};
   if (spec.format == OIIO::TypeDesc::UINT8) {
     image.values = rgb_values<std::uint8_t>(*in, name);
     return image;
@@ -188,7 +187,7 @@ Image texture(const std::string& name, std::string_view bytes) {
   const std::string space =
       spec.get_string_attribute("oiio:ColorSpace", spec.format.is_floating_point() ? "Linear" : "sRGB");
   if (space != "Linear" && space != "linear" && space != "scene_linear")
-    for (float& value : values) value = linear_of_srgb(value);
+    for (float& value : values) value = static_cast<float>(linear_of_srgb(value));
   image.values = std::move(values);
   return image;
 }

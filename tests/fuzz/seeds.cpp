@@ -184,6 +184,9 @@ void write_images() {
   const Picture picture{{2, 1}, {0, 0.5f, 1, 0.25f, 9, -1}, {}};
   write_choice("image", 0, "png", png_bytes(picture));
   write_choice("image", 2, "exr", exr_bytes(picture));
+  const std::string radiance = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X ", pixel = "\n\x80\x40\x20\x81";
+  write_choice("image", 3, "hdr", radiance + "1" + pixel);
+  write_choice("image", 3, "wide_hdr", radiance + "15466504" + pixel);
 }
 
 }  // namespace
