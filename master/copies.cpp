@@ -18,8 +18,6 @@ std::uint64_t unfinished_pixels(const Job& job) {
   return std::uint64_t{size.width} * size.height * job.frames.size() - job.pixels_done;
 }
 
-double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).count(); }
-
 }  // namespace
 
 void Farm::tick(FarmTime now) {

@@ -12,8 +12,6 @@ constexpr std::chrono::microseconds shortest_delivery{1};  // so that nobody is 
 constexpr std::chrono::seconds between_marks{1};
 constexpr std::size_t window_marks = 10;
 
-double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).count(); }
-
 }  // namespace
 
 void Speed::add(std::uint64_t added, FarmTime taken) {

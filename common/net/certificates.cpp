@@ -2,7 +2,6 @@
 
 #include <arpa/inet.h>
 #include <openssl/ec.h>
-#include <openssl/pem.h>
 #include <openssl/rand.h>
 #include <openssl/x509v3.h>
 
@@ -11,6 +10,7 @@
 
 #include "common/net/codec.h"
 #include "common/net/openssl_ptr.h"
+#include "common/net/pem.h"
 
 namespace rayfarm {
 namespace {
@@ -24,70 +24,25 @@ constexpr long version_3 = 2;          // as X.509 counts
 using ExtensionPtr = std::unique_ptr<X509_EXTENSION, FreedBy<X509_EXTENSION_free>>;
 using NamesPtr = std::unique_ptr<GENERAL_NAMES, FreedBy<GENERAL_NAMES_free>>;
 
-[[noreturn]] void fail(const std::string& what) { throw CertificateError(what + ": " + openssl_error()); }
-void expect(bool done, const char* what) {
-  if (!done) fail(what);
-}
-
-// Text to things and back. ---------------------------------------------------------------------------------
-
-BioPtr bio_of(const std::string& text) {
-  return BioPtr(BIO_new_mem_buf(text.data(), static_cast<int>(std::min<std::size_t>(text.size(), 1u << 20))));
-}
-
-std::string text_in(const BioPtr& bio) {
-  char* data = nullptr;
-  const long size = BIO_get_mem_data(bio.get(), &data);
-  return {data, static_cast<std::size_t>(size)};
-}
-
-/// Not even a file that asks for a password makes the program ask for one.
-int no_password(char*, int, int, void*) { return 0; }
-
-KeyPtr key_in(const std::string& pem) {
-  KeyPtr key(PEM_read_bio_PrivateKey(bio_of(pem).get(), nullptr, no_password, nullptr));
-  if (!key) fail("there is no private key without a password in it");
-  return key;
-}
-
-CertificatePtr certificate_in(const std::string& pem) {
-  CertificatePtr certificate(PEM_read_bio_X509(bio_of(pem).get(), nullptr, no_password, nullptr));
-  if (!certificate) fail("there is no certificate in it");
-  return certificate;
-}
-
-std::string pem_of(const KeyPtr& key) {
-  const BioPtr out(BIO_new(BIO_s_mem()));
-  expect(PEM_write_bio_PrivateKey(out.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1,
-         "a key could not be written");
-  return text_in(out);
-}
-
-std::string pem_of(const CertificatePtr& certificate) {
-  const BioPtr out(BIO_new(BIO_s_mem()));
-  expect(PEM_write_bio_X509(out.get(), certificate.get()) == 1, "a certificate could not be written");
-  return text_in(out);
-}
-
 // Making. --------------------------------------------------------------------------------------------------
 
 KeyPtr make_key() {
   KeyPtr key(EVP_EC_gen("P-256"));
-  if (!key) fail("no key could be made");
+  expect_done(key != nullptr, "no key could be made");
   return key;
 }
 
 void set_number(X509* certificate) {
   std::array<unsigned char, 16> bytes;
-  expect(RAND_bytes(bytes.data(), bytes.size()) == 1, "there are no random numbers");
+  expect_done(RAND_bytes(bytes.data(), bytes.size()) == 1, "there are no random numbers");
   bytes[0] &= 0x7f;  // it must not be negative
   const std::unique_ptr<BIGNUM, FreedBy<BN_free>> number(BN_bin2bn(bytes.data(), bytes.size(), nullptr));
-  expect(BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate)) != nullptr,
-         "a number could not be set");
+  expect_done(BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate)) != nullptr,
+              "a number could not be set");
 }
 
 void set_validity(X509* certificate, const Validity& validity) {
-  expect(
+  expect_done(
       ASN1_TIME_set(X509_getm_notBefore(certificate), std::chrono::system_clock::to_time_t(validity.from)) &&
           ASN1_TIME_set(X509_getm_notAfter(certificate),
                         std::chrono::system_clock::to_time_t(validity.until)),
@@ -95,17 +50,18 @@ void set_validity(X509* certificate, const Validity& validity) {
 }
 
 void add_to_name(X509_NAME* name, const char* field, std::string_view value) {
-  expect(X509_NAME_add_entry_by_txt(name, field, MBSTRING_UTF8,
-                                    reinterpret_cast<const unsigned char*>(value.data()),
-                                    static_cast<int>(value.size()), -1, 0) == 1,
-         "the name cannot stand in a certificate");
+  expect_done(X509_NAME_add_entry_by_txt(name, field, MBSTRING_UTF8,
+                                         reinterpret_cast<const unsigned char*>(value.data()),
+                                         static_cast<int>(value.size()), -1, 0) == 1,
+              "the name cannot stand in a certificate");
 }
 
 void add_extension(X509* certificate, X509* issuer, int kind, const std::string& value) {
   X509V3_CTX context;
   X509V3_set_ctx(&context, issuer, certificate, nullptr, nullptr, 0);
   const ExtensionPtr extension(X509V3_EXT_conf_nid(nullptr, &context, kind, value.c_str()));
-  expect(extension && X509_add_ext(certificate, extension.get(), -1) == 1, "a certificate could not be made");
+  expect_done(extension && X509_add_ext(certificate, extension.get(), -1) == 1,
+              "a certificate could not be made");
 }
 
 bool is_address(const std::string& host) {
@@ -127,9 +83,9 @@ std::string alternative_names(const std::vector<std::string>& hosts) {
 
 CertificatePtr begin_certificate(EVP_PKEY* key, const Validity& validity) {
   CertificatePtr certificate(X509_new());
-  expect(certificate && X509_set_version(certificate.get(), version_3) == 1 &&
-             X509_set_pubkey(certificate.get(), key) == 1,
-         "a certificate could not be made");
+  expect_done(certificate && X509_set_version(certificate.get(), version_3) == 1 &&
+                  X509_set_pubkey(certificate.get(), key) == 1,
+              "a certificate could not be made");
   set_number(certificate.get());
   set_validity(certificate.get(), validity);
   add_to_name(X509_get_subject_name(certificate.get()), "O", "rayfarm");
@@ -137,18 +93,17 @@ CertificatePtr begin_certificate(EVP_PKEY* key, const Validity& validity) {
 }
 
 void sign(X509* certificate, X509* issuer, EVP_PKEY* key) {
-  expect(X509_set_issuer_name(certificate, X509_get_subject_name(issuer)) == 1 &&
-             X509_sign(certificate, key, EVP_sha256()) > 0,
-         "a certificate could not be signed");
+  expect_done(X509_set_issuer_name(certificate, X509_get_subject_name(issuer)) == 1 &&
+                  X509_sign(certificate, key, EVP_sha256()) > 0,
+              "a certificate could not be signed");
 }
 
 /// The key that the request is for, which has signed it.
 KeyPtr key_of_request(const std::string& request) {
-  const RequestPtr parsed(PEM_read_bio_X509_REQ(bio_of(request).get(), nullptr, no_password, nullptr));
-  if (!parsed) fail("this is no request for a certificate");
+  const RequestPtr parsed = request_in(request);
   KeyPtr key(X509_REQ_get_pubkey(parsed.get()));
-  if (!key || X509_REQ_verify(parsed.get(), key.get()) != 1)
-    fail("the request does not prove that its sender has the key");
+  expect_done(key && X509_REQ_verify(parsed.get(), key.get()) == 1,
+              "the request does not prove that its sender has the key");
   return key;
 }
 
@@ -187,14 +142,15 @@ std::vector<std::string> hosts_of(const X509* certificate) {
 
 WallTime end_of(const X509* certificate) {
   std::tm time{};
-  expect(ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &time) == 1, "the certificate's end is no time");
+  expect_done(ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &time) == 1,
+              "the certificate's end is no time");
   return std::chrono::system_clock::from_time_t(timegm(&time));
 }
 
 std::string id_of(const X509* certificate) {
   unsigned char* der = nullptr;
   const int size = i2d_X509(certificate, &der);
-  expect(size > 0, "a certificate could not be written");
+  expect_done(size > 0, "a certificate could not be written");
   const std::unique_ptr<unsigned char, FreedBy<[](void* p) { OPENSSL_free(p); }>> owner(der);
   return sha256_hex({der, static_cast<std::size_t>(size)});
 }
@@ -214,17 +170,15 @@ std::vector<std::string> pem_blocks(std::string_view text) {
   return blocks;
 }
 
-std::string new_key() { return pem_of(make_key()); }
+std::string new_key() { return pem_of(make_key().get()); }
 
 std::string certificate_request(const std::string& key) {
   const KeyPtr own = key_in(key);
   const RequestPtr request(X509_REQ_new());
-  const BioPtr out(BIO_new(BIO_s_mem()));
-  expect(request && X509_REQ_set_pubkey(request.get(), own.get()) == 1 &&
-             X509_REQ_sign(request.get(), own.get(), EVP_sha256()) > 0 &&
-             PEM_write_bio_X509_REQ(out.get(), request.get()) == 1,
-         "a request could not be made");
-  return text_in(out);
+  expect_done(request && X509_REQ_set_pubkey(request.get(), own.get()) == 1 &&
+                  X509_REQ_sign(request.get(), own.get(), EVP_sha256()) > 0,
+              "a request could not be made");
+  return pem_of(request.get());
 }
 
 Identity new_authority(WallTime now) {
@@ -235,7 +189,7 @@ Identity new_authority(WallTime now) {
   add_extension(own.get(), own.get(), NID_key_usage, "critical,keyCertSign,cRLSign");
   add_extension(own.get(), own.get(), NID_subject_key_identifier, "hash");
   sign(own.get(), own.get(), key.get());
-  return {pem_of(key), pem_of(own)};
+  return {pem_of(key.get()), pem_of(own.get())};
 }
 
 std::string issue(const Identity& authority, const std::string& request, const Owner& owner,
@@ -254,7 +208,7 @@ std::string issue(const Identity& authority, const std::string& request, const O
   if (const std::string names = alternative_names(owner.hosts); !names.empty())
     add_extension(issued.get(), issuer.get(), NID_subject_alt_name, names);
   sign(issued.get(), issuer.get(), signing_key.get());
-  return pem_of(issued);
+  return pem_of(issued.get());
 }
 
 CertificateFacts facts_of(const std::string& certificate) {

@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <asio/error.hpp>
 #include <asio/post.hpp>
 #include <asio/use_awaitable.hpp>
 #include <asio/write.hpp>
@@ -82,6 +83,11 @@ class RecordFiller {
 };
 
 }  // namespace
+
+void lose(const asio::system_error& error) {
+  throw ConnectionLost(error.code() == asio::error::eof ? "the other side closed the connection"
+                                                        : error.code().message());
+}
 
 void Channel::FreeTls::operator()(ssl_st* tls) const { SSL_free(tls); }
 

@@ -6,6 +6,7 @@
 #include <asio/awaitable.hpp>
 #include <asio/buffer.hpp>
 #include <asio/ip/tcp.hpp>
+#include <asio/system_error.hpp>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -24,6 +25,9 @@ struct ConnectionLost : std::runtime_error {
 struct PeerSilent : ConnectionLost {
   using ConnectionLost::ConnectionLost;
 };
+
+/// Throws ConnectionLost with what this error of a channel means.
+[[noreturn]] void lose(const asio::system_error& error);
 
 /// One coroutine may read while another one writes. What ends a connection is thrown as asio::system_error, whatever it
 /// is; ConnectionLost when it is the encryption.

@@ -24,11 +24,6 @@ std::string seconds(std::chrono::milliseconds time) {
   return text + " s";
 }
 
-[[noreturn]] void lose(const asio::system_error& error) {
-  if (error.code() == asio::error::eof) throw ConnectionLost("the other side closed the connection");
-  throw ConnectionLost(error.code().message());
-}
-
 /// Small frames go out together, but not so many that what has long arrived counts as queued.
 std::vector<Frame> take_batch(std::deque<Frame>& queue) {
   std::vector<Frame> batch;

@@ -52,11 +52,6 @@ void check_peer(const Channel& channel) {
                        "\" is refused: " + channel.peer()->fault);
 }
 
-[[noreturn]] void lose(const asio::system_error& error) {
-  throw ConnectionLost(error.code() == asio::error::eof ? "the other side closed the connection"
-                                                        : error.code().message());
-}
-
 asio::awaitable<Places> resolve(const Address& address) {
   tcp::resolver resolver(co_await asio::this_coro::executor);
   const std::string port = std::to_string(address.port);

@@ -1,8 +1,7 @@
 #include "common/net/tls.h"
 
-#include <openssl/pem.h>
-
 #include "common/net/openssl_ptr.h"
+#include "common/net/pem.h"
 
 namespace rayfarm {
 namespace {
@@ -10,39 +9,17 @@ namespace {
 using StorePtr = std::unique_ptr<X509_STORE, FreedBy<X509_STORE_free>>;
 using VerificationPtr = std::unique_ptr<X509_STORE_CTX, FreedBy<X509_STORE_CTX_free>>;
 
-void expect(bool done, const char* what) {
-  if (!done) throw CertificateError(std::string(what) + ": " + openssl_error());
-}
-
-BioPtr bio_of(const std::string& text) {
-  return BioPtr(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
-}
-
-CertificatePtr certificate_in(const std::string& pem) {
-  CertificatePtr certificate(PEM_read_bio_X509(bio_of(pem).get(), nullptr, nullptr, nullptr));
-  expect(certificate != nullptr, "there is no certificate");
-  return certificate;
-}
-
-std::string pem_of(X509* certificate) {
-  const BioPtr out(BIO_new(BIO_s_mem()));
-  expect(PEM_write_bio_X509(out.get(), certificate) == 1, "a certificate could not be written");
-  char* data = nullptr;
-  const long size = BIO_get_mem_data(out.get(), &data);
-  return {data, static_cast<std::size_t>(size)};
-}
-
 /// The handshake takes any certificate, so that the other side learns nothing from its failing: what is shown is
 /// judged once it is over, before anything is said.
 int take_any(X509_STORE_CTX*, void*) { return 1; }
 
 std::shared_ptr<SSL_CTX> new_context() {
   const std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_method()), SSL_CTX_free);
-  expect(context && SSL_CTX_set_min_proto_version(context.get(), TLS1_3_VERSION) == 1 &&
-             SSL_CTX_set_ciphersuites(
-                 context.get(),
-                 "TLS_AES_128_GCM_SHA256:TLS_AES_256_GCM_SHA384:TLS_CHACHA20_POLY1305_SHA256") == 1,
-         "TLS 1.3 is not available");
+  expect_done(context && SSL_CTX_set_min_proto_version(context.get(), TLS1_3_VERSION) == 1 &&
+                  SSL_CTX_set_ciphersuites(
+                      context.get(),
+                      "TLS_AES_128_GCM_SHA256:TLS_AES_256_GCM_SHA384:TLS_CHACHA20_POLY1305_SHA256") == 1,
+              "TLS 1.3 is not available");
   SSL_CTX_set_num_tickets(context.get(), 0);
   SSL_CTX_set_session_cache_mode(context.get(), SSL_SESS_CACHE_OFF);
   SSL_CTX_set_options(context.get(), SSL_OP_NO_TICKET | SSL_OP_NO_COMPRESSION);
@@ -55,10 +32,10 @@ std::shared_ptr<SSL_CTX> new_context() {
 }
 
 void use(SSL_CTX* context, const Identity& own) {
-  const KeyPtr key(PEM_read_bio_PrivateKey(bio_of(own.key).get(), nullptr, nullptr, nullptr));
-  expect(key && SSL_CTX_use_certificate(context, certificate_in(own.certificate).get()) == 1 &&
-             SSL_CTX_use_PrivateKey(context, key.get()) == 1,
-         "the key and the certificate cannot be used");
+  const KeyPtr key = key_in(own.key);
+  expect_done(SSL_CTX_use_certificate(context, certificate_in(own.certificate).get()) == 1 &&
+                  SSL_CTX_use_PrivateKey(context, key.get()) == 1,
+              "the key and the certificate cannot be used");
 }
 
 std::string words_for(long verdict) {
@@ -73,8 +50,8 @@ std::string words_for(long verdict) {
 /// Why the authorities in the store do not stand behind this certificate; empty when one does.
 std::string fault_of(X509* certificate, X509_STORE* authorities) {
   const VerificationPtr verification(X509_STORE_CTX_new());
-  expect(verification && X509_STORE_CTX_init(verification.get(), authorities, certificate, nullptr) == 1,
-         "a certificate could not be verified");
+  expect_done(verification && X509_STORE_CTX_init(verification.get(), authorities, certificate, nullptr) == 1,
+              "a certificate could not be verified");
   const bool is_good = X509_verify_cert(verification.get()) == 1;
   ERR_clear_error();
   return is_good ? "" : words_for(X509_STORE_CTX_get_error(verification.get()));
@@ -86,10 +63,10 @@ TlsContext::TlsContext(const Identity& own, const std::string& authority, PeerRo
     : context_(new_context()), peer_(peer) {
   const CertificatePtr trusted = certificate_in(authority);
   use(context_.get(), own);
-  expect(X509_STORE_add_cert(SSL_CTX_get_cert_store(context_.get()), trusted.get()) == 1 &&
-             SSL_CTX_add1_chain_cert(context_.get(), trusted.get()) ==
-                 1,  // for those who know its fingerprint only
-         "the authority's certificate cannot be used");
+  expect_done(X509_STORE_add_cert(SSL_CTX_get_cert_store(context_.get()), trusted.get()) == 1 &&
+                  SSL_CTX_add1_chain_cert(context_.get(), trusted.get()) ==
+                      1,  // for those who know its fingerprint only
+              "the authority's certificate cannot be used");
 }
 
 TlsContext TlsContext::of_stranger() { return TlsContext(new_context()); }
@@ -101,8 +78,8 @@ std::shared_ptr<ssl_ctx_st> web_context(const Identity& own) {
   if (chain.empty()) throw CertificateError("there is no certificate");
   use(context.get(), {own.key, chain[0]});
   for (std::size_t i = 1; i < chain.size(); ++i)
-    expect(SSL_CTX_add1_chain_cert(context.get(), certificate_in(chain[i]).get()) == 1,
-           "the certificates cannot be used");
+    expect_done(SSL_CTX_add1_chain_cert(context.get(), certificate_in(chain[i]).get()) == 1,
+                "the certificates cannot be used");
   return context;
 }
 
@@ -129,7 +106,7 @@ std::string authority_behind(ssl_st& connection, const std::string& fingerprint)
     std::string authority = pem_of(candidate);
     if (!fingerprint_of(authority).starts_with(fingerprint)) continue;
     const StorePtr store(X509_STORE_new());
-    expect(store && X509_STORE_add_cert(store.get(), candidate) == 1, "the authority cannot be used");
+    expect_done(store && X509_STORE_add_cert(store.get(), candidate) == 1, "the authority cannot be used");
     const std::string fault = fault_of(shown.get(), store.get());
     if (!fault.empty()) throw CertificateError("the certificate of the master cannot be trusted: " + fault);
     if (facts_of(pem_of(shown.get())).role != PeerRole::master)

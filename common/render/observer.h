@@ -22,6 +22,11 @@ namespace rayfarm {
 
 enum class RayKind : std::uint8_t { primary, reflected, refracted };
 
+inline const char* name_of(RayKind kind) {
+  constexpr const char* names[]{"primary", "reflected", "refracted"};
+  return names[static_cast<int>(kind)];
+}
+
 enum class NotTraced : std::uint8_t { importance, total_reflection };
 
 /// A light as one sample sees it: an area light has become a point of its own.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto master_lifetime = std::chrono::days(820);
 
-std::optional<Identity> read(const std::filesystem::path& file) {
+std::optional<Identity> read_identity(const std::filesystem::path& file) {
   const std::optional<std::string> text = read_private_file(file);
   if (!text) return std::nullopt;
   const std::vector<std::string> blocks = pem_blocks(*text);
@@ -31,7 +31,7 @@ void write(const std::filesystem::path& file, const Identity& identity) {
 }  // namespace
 
 Identity kept_authority(const std::filesystem::path& file, WallTime now) {
-  if (const std::optional<Identity> kept = read(file)) return *kept;
+  if (const std::optional<Identity> kept = read_identity(file)) return *kept;
   Identity made = new_authority(now);
   write(file, made);
   return made;
@@ -45,7 +45,7 @@ Identity kept_master(const std::filesystem::path& file, const Identity& authorit
     return is_signed_by(kept.certificate, authority.certificate) && facts.hosts == hosts &&
            facts.until > now + master_lifetime / 2;
   };
-  if (const std::optional<Identity> kept = read(file); kept && is_good(*kept)) return *kept;
+  if (const std::optional<Identity> kept = read_identity(file); kept && is_good(*kept)) return *kept;
   const std::string key = new_key();
   Identity made{key, issue(authority, certificate_request(key), {PeerRole::master, "rayfarm master", hosts},
                            {now, now + master_lifetime})};

@@ -14,7 +14,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-std::uint8_t byte_of(double share) {
+std::uint8_t code_of(double share) {
   return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0, 1.0) + 0.5);
 }
 
@@ -34,7 +34,7 @@ PlyPoint cloud_point(const Hit& hit) {
   };
   return {mirrored(hit.point),
           mirrored(hit.normal),
-          {byte_of(hit.color.x), byte_of(hit.color.y), byte_of(hit.color.z)}};
+          {code_of(hit.color.x), code_of(hit.color.y), code_of(hit.color.z)}};
 }
 
 CloudFile::CloudFile(const std::filesystem::path& file, const CloudOptions& options)

@@ -16,11 +16,6 @@ json json_of(const std::vector<Stretch>& stretches) {
   return all;
 }
 
-const char* name_of(RayKind kind) {
-  constexpr const char* names[]{"primary", "reflected", "refracted"};
-  return names[static_cast<int>(kind)];
-}
-
 const char* name_of(LightFate fate) {
   constexpr const char* names[]{"ambient", "reached", "blocked", "behind"};
   return names[static_cast<int>(fate)];

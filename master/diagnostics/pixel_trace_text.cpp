@@ -19,18 +19,6 @@ std::string shown(const std::vector<Stretch>& stretches) {
   return all.empty() ? "nowhere" : all;
 }
 
-const char* name_of(RayKind kind) {
-  switch (kind) {
-    case RayKind::primary:
-      return "primary";
-    case RayKind::reflected:
-      return "reflected";
-    case RayKind::refracted:
-      return "refracted";
-  }
-  return "";
-}
-
 class Writer {
  public:
   explicit Writer(const std::vector<std::string>& leaf_names) : names_(leaf_names) {}

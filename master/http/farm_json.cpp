@@ -9,8 +9,6 @@ namespace {
 
 using nlohmann::json;
 
-double seconds_of(FarmTime time) { return std::chrono::duration<double>(time).count(); }
-
 /// Another one each time that a picture was done: what JavaScript's numbers hold exactly.
 std::int64_t version_of(FarmTime done) {
   return std::chrono::duration_cast<std::chrono::microseconds>(done).count();

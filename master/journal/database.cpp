@@ -12,7 +12,6 @@ namespace rayfarm {
 namespace {
 
 constexpr int schema_version = 3;
-constexpr int patience_ms = 5000;  // for the journal's other connection, which syncs
 
 // jobs      spec and status: rows.h, sealed by the job; is_live: it is being rendered; crashes: in a row
 // frames    what came of a frame (sealed), when it started; dropped: what is known of a picture that is gone (sealed)
@@ -85,7 +84,7 @@ void make_schema(SQLite::Database& database, const std::filesystem::path& file) 
 }  // namespace
 
 Database::Database(const std::filesystem::path& file) try
-    : sqlite_(made(file), SQLite::OPEN_READWRITE, patience_ms) {
+    : sqlite_(made(file), SQLite::OPEN_READWRITE, journal_patience_ms) {
   sqlite_.exec("PRAGMA auto_vacuum = INCREMENTAL");  // counts for a new file only
   sqlite_.exec("PRAGMA journal_mode = WAL");
   sqlite_.exec("PRAGMA synchronous = NORMAL");    // WalSync syncs, on its thread

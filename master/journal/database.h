@@ -11,6 +11,8 @@
 
 namespace rayfarm {
 
+constexpr int journal_patience_ms = 5000;  // with its other connection: one writes, the other syncs
+
 /// A statement under way; while it is, others do not see the end of the log.
 struct EndQuery {
   void operator()(SQLite::Statement* statement) const { statement->tryReset(); }

@@ -1,6 +1,5 @@
 #include "master/journal/wal_sync.h"
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -10,13 +9,14 @@
 #include <fstream>
 #include <utility>
 
+#include "master/journal/database.h"
+
 namespace rayfarm {
 namespace {
 
 constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
 constexpr std::uintmax_t large_log = 4u << 20;             // bytes: then it is moved into the file
 constexpr std::uintmax_t huge_log = 16u << 20;             // bytes: then writers wait until it is empty
-constexpr int patience_ms = 5000;
 
 std::filesystem::path log_of(const std::filesystem::path& journal) { return journal.string() + "-wal"; }
 
@@ -46,7 +46,7 @@ void put_mark(const std::filesystem::path& journal, std::int64_t writes) {
 /// That somebody else reads or writes is no fault: the next time will do. A statement, since sqlite3_wal_checkpoint_v2() does
 /// nothing in a connection that has not read yet, and says that all is well.
 void empty_log(const std::filesystem::path& journal, const char* how) {
-  SQLite::Database database(journal.string(), SQLite::OPEN_READWRITE, patience_ms);
+  SQLite::Database database(journal.string(), SQLite::OPEN_READWRITE, journal_patience_ms);
   SQLite::Statement(database, std::string("PRAGMA wal_checkpoint(") + how + ")").executeStep();
 }
 

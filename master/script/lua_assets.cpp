@@ -12,13 +12,6 @@ const Signature mesh_signature{"mesh", {"file", "smooth"}};
 const Signature bezier_signature{"bezier", {"points"}, 1};
 const Signature picture_signature{"picture", {"file", "fu", "fv", "smooth"}};
 
-int push_solid(lua_State* L, const Solid& solid) {
-  NodeValue node;
-  node.content = solid;
-  push_node(L, node);
-  return 1;
-}
-
 /// The asset that `read` makes of the file that the fields name. One that is not here yet is asked for; until it
 /// comes, any number will do: the scene is not used.
 template <class Read>
@@ -41,7 +34,7 @@ int make_mesh(lua_State* L) {
   Mesh mesh;
   mesh.smooth = fields.boolean("smooth", mesh.smooth);
   mesh.asset = asset_of_file(L, fields, read_mesh);
-  return push_solid(L, mesh);
+  return push_content(L, mesh);
 }
 
 int make_picture(lua_State* L) {
@@ -91,7 +84,7 @@ int make_bezier(lua_State* L) {
   }
   lua_pop(L, 1);
   grid.rows = static_cast<std::uint32_t>(rows / 3);
-  return push_solid(L, Bezier{run_of(L).assets.add(std::move(grid))});
+  return push_content(L, Bezier{run_of(L).assets.add(std::move(grid))});
 }
 
 }  // namespace

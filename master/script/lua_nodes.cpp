@@ -18,25 +18,17 @@ const Signature rounded_cube_signature{"rounded_cube", {"r"}, 1};
 const Signature glow_sphere_signature{"glow_sphere", {"color", "exponent"}};
 const Signature glow_cylinder_signature{"glow_cylinder", {"zmin", "zmax", "color", "exponent"}, 2};
 
-int push_content(lua_State* L, const NodeContent& content) {
-  NodeValue node;
-  node.content = content;
-  push_node(L, node);
-  return 1;
-}
-int push_solid(lua_State* L, const Solid& solid) { return push_content(L, solid); }
-
 int make_sphere(lua_State* L) {
   const Fields none(L, 1, sphere_signature);
-  return push_solid(L, Sphere{});
+  return push_content(L, Sphere{});
 }
 int make_cube(lua_State* L) {
   const Fields none(L, 1, cube_signature);
-  return push_solid(L, Cube{});
+  return push_content(L, Cube{});
 }
 int make_plane(lua_State* L) {
   const Fields none(L, 1, plane_signature);
-  return push_solid(L, Plane{});
+  return push_content(L, Plane{});
 }
 /// A solid about the z axis between two limits.
 template <class S>
@@ -48,15 +40,15 @@ S read_limited(const Fields& fields) {
   return solid;
 }
 int make_cylinder(lua_State* L) {
-  return push_solid(L, read_limited<Cylinder>(Fields(L, 1, cylinder_signature)));
+  return push_content(L, read_limited<Cylinder>(Fields(L, 1, cylinder_signature)));
 }
-int make_cone(lua_State* L) { return push_solid(L, read_limited<Cone>(Fields(L, 1, cone_signature))); }
+int make_cone(lua_State* L) { return push_content(L, read_limited<Cone>(Fields(L, 1, cone_signature))); }
 int make_torus(lua_State* L) {
   const Fields fields(L, 1, torus_signature);
   Torus torus;
   torus.R = fields.number("R", torus.R, Range::positive);
   torus.r = fields.number("r", torus.r, Range::positive);
-  return push_solid(L, torus);
+  return push_content(L, torus);
 }
 
 int make_rounded_cube(lua_State* L) {
@@ -64,7 +56,7 @@ int make_rounded_cube(lua_State* L) {
   RoundedCube cube;
   cube.r = fields.number("r", cube.r, Range::positive);
   if (cube.r > 0.5) throw SceneError(fields.place("r") + " must be at most 0.5, is " + text_of(cube.r));
-  return push_solid(L, cube);
+  return push_content(L, cube);
 }
 
 // Glow shells. ----------------------------------------------------------------------------------------------

@@ -35,6 +35,14 @@ inline NodeValue& push_node(lua_State* L, const NodeValue& node) {
   return push_value(L, node, companion_count);
 }
 
+/// A node of this content and nothing else; the number of values pushed.
+inline int push_content(lua_State* L, const NodeContent& content) {
+  NodeValue node;
+  node.content = content;
+  push_node(L, node);
+  return 1;
+}
+
 /// Pushes a copy of the node at the index, which shares its companions.
 inline NodeValue& push_copy(lua_State* L, int index) {
   index = lua_absindex(L, index);

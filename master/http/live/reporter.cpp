@@ -57,14 +57,13 @@ LiveNews LiveReporter::look_up(const LiveWish& wish) {
 }
 
 void LiveReporter::look_at_farm(const LiveWish& wish, LiveNews& news) {
-  FarmNow found =
-      doors_.farm.ask([wish, old = revision_, due = next_state_, doors = &doors_](Farm& farm, FarmTime now) {
-        FarmNow found{farm.revision(), now, {}, {}, doors->master.log(wish.log_after)};
-        if (!wish.state_is_missing && now < due) return found;
-        found.workers = worker_list(farm, doors->master);
-        found.jobs = farm.jobs(now);
-        return found;
-      });
+  FarmNow found = doors_.farm.ask([wish, due = next_state_, doors = &doors_](Farm& farm, FarmTime now) {
+    FarmNow found{farm.revision(), now, {}, {}, doors->master.log(wish.log_after)};
+    if (!wish.state_is_missing && now < due) return found;
+    found.workers = worker_list(farm, doors->master);
+    found.jobs = farm.jobs(now);
+    return found;
+  });
   news.now = found.now;
   news.lines = std::move(found.lines);
   if (!wish.state_is_missing && found.now < next_state_) return;
