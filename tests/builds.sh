@@ -30,7 +30,7 @@ same=(O3) skipped=() differ=()
 
 try() {  # NAME -DOPTION=VALUE...
   local folder=$top/build/bits-$1
-  "$top/deploy/build.sh" "$folder" "${@:2}" -DRAYFARM_TESTS=OFF -DRAYFARM_WEB=OFF "${targets[@]}"
+  "$top/deploy/build.sh" "$folder" "${@:2}" -DCMAKE_UNITY_BUILD=ON -DRAYFARM_TESTS=OFF -DRAYFARM_WEB=OFF "${targets[@]}"
   render_all "$folder" "$1"
   local picture
   for picture in "$pictures/O3"/*.exr; do

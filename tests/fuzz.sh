@@ -3,7 +3,7 @@
 # they are read in little time and memory, or refused.
 #   tests/fuzz.sh [SECONDS] [DOOR...]     30 s; all doors, which are the files tests/fuzz/*_fuzz.cpp
 # deploy/setup.sh tests installs what it takes. What leads further is kept in build/fuzz/corpus, where the next run goes
-# on; what breaks a door is put into build/fuzz/found.
+# on; what breaks a door is put into build/fuzz/found. Other inputs at each run, unless RAYFARM_FUZZ_SEED is set.
 set -euo pipefail
 top=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 build=$top/build/fuzz
@@ -14,7 +14,7 @@ if [ ${#doors[@]} = 0 ]; then
 fi
 
 "$top/deploy/build.sh" "$build" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DRAYFARM_FUZZ=ON \
-  -DRAYFARM_SANITIZE=address,undefined -DRAYFARM_TESTS=OFF -DRAYFARM_WEB=OFF "${doors[@]/#/fuzz_}"
+  -DRAYFARM_SANITIZE=address,undefined -DCMAKE_UNITY_BUILD=ON -DRAYFARM_TESTS=OFF -DRAYFARM_WEB=OFF "${doors[@]/#/fuzz_}"
 
 export top build seconds
 [ -w /dev/shm ] && export TMPDIR=/dev/shm  # the journal's files
@@ -31,7 +31,8 @@ fuzz() {  # DOOR
   esac
   mkdir -p "$build/corpus/$1"
   local result=held
-  "$build/bin/fuzz_$1" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=32768 -print_final_stats=1 \
+  "$build/bin/fuzz_$1" -max_total_time="$seconds" -seed="${RAYFARM_FUZZ_SEED:-0}" \
+    -timeout=20 -rss_limit_mb=2048 -max_len=32768 -print_final_stats=1 \
     -artifact_prefix="$build/found/$1-" "${options[@]}" "$build/corpus/$1" "${seeds[@]}" >"$log" 2>&1 || result=BROKEN
   echo "$1: $result, $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs"
   [ $result = held ] || { tail -n 60 "$log"; return 1; }

@@ -16,7 +16,7 @@ tests=$(grep -E '^[0-9]+% tests passed' "$build/ctest.log" | tail -n 1)
 "$top/tests/builds.sh" "$build" 2>&1 | tee "$build/builds.log"
 builds_code=${PIPESTATUS[0]}
 
-"$top/tests/fuzz.sh" 30 2>&1 | tee "$build/fuzz.log"
+RAYFARM_FUZZ_SEED=1 "$top/tests/fuzz.sh" 30 2>&1 | tee "$build/fuzz.log"
 fuzz_code=${PIPESTATUS[0]}
 
 if [ "$ctest_code" = 0 ] && [ "$builds_code" = 0 ] && [ "$fuzz_code" = 0 ]; then verdict=PASSED; else verdict=FAILED; fi
