@@ -7,7 +7,8 @@ top=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 [ $# -ge 1 ] || { echo "usage: tests/sanitize.sh thread | address,undefined [CTEST-OPTION...]" >&2; exit 2; }
 sanitizer=$1
 build=$top/build/sanitize-${sanitizer//,/-}
-"$top/deploy/build.sh" "$build" -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DRAYFARM_SANITIZE="$sanitizer" -DRAYFARM_WEB=OFF
+"$top/deploy/build.sh" "$build" -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DRAYFARM_SANITIZE="$sanitizer" \
+  -DCMAKE_UNITY_BUILD=ON -DRAYFARM_WEB=OFF
 
 # To files: nobody reads the standard error of a program that its test kills.
 reports=$build/reports
@@ -17,7 +18,7 @@ export TSAN_OPTIONS="suppressions=$top/tests/tsan_suppressions.txt print_suppres
 export ASAN_OPTIONS="log_path=$reports/address"
 export UBSAN_OPTIONS="print_stacktrace=1 log_path=$reports/undefined"
 failed=0
-ctest --test-dir "$build" --output-on-failure -E '^(Web\.|stability$)' "${@:2}" || failed=1
+ctest --test-dir "$build" -j "$(nproc)" --output-on-failure -E '^(Web\.|stability$)' "${@:2}" || failed=1
 for report in "$reports"/*; do
   [ -e "$report" ] || continue
   echo "--- ${report##*/}"
