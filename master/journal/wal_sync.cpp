@@ -88,12 +88,13 @@ void WalSync::work() {
     news_.wait(lock, [this] { return writes_ != synced_ || is_ending_; });
     const bool was_last = is_ending_;
     if (synced_ != writes_) {
-      const std::int64_t writes = synced_ = writes_;
+      const std::int64_t writes = writes_;
       lock.unlock();
       try {
         sync(writes);
         lock.lock();
-      } catch (const std::exception& error) {
+        synced_ = writes;
+      } catch (const std::exception& error) {  // it is tried again
         lock.lock();
         fault_ = error.what();
       }

@@ -47,7 +47,7 @@ struct Damaged {
     FakeWorker(kept.farm(), {.name = "pc"}, 1s).finish_all(2s);
     kept.keep();
     kept.close();
-    SQLite::Database(kept.file().string(), SQLite::OPEN_READWRITE).exec(sql);
+    SQLite::Database(kept.file().string(), SQLite::OPEN_READWRITE, patience).exec(sql);
     kept.open();
   }
   JobView view() { return kept.farm().job(job, 3s).value(); }

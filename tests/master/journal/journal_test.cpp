@@ -104,7 +104,7 @@ TEST(Journal, KeepsWhatWasWrittenAndNothingElse) {
 }
 
 std::int64_t rows(const std::filesystem::path& file, const std::string& table) {
-  SQLite::Database database(file.string());
+  SQLite::Database database(file.string(), SQLite::OPEN_READONLY, patience);
   return database.execAndGet("SELECT count(*) FROM " + table).getInt64();
 }
 
@@ -128,7 +128,7 @@ TEST(Journal, DeletesWhatTheFarmDrops) {
 
 /// Of the file, once its log is in it.
 std::int64_t bytes_of(const KeptFarm& kept) {
-  SQLite::Database database(kept.file().string());
+  SQLite::Database database(kept.file().string(), SQLite::OPEN_READONLY, patience);
   return database.execAndGet("PRAGMA page_count").getInt64() *
          database.execAndGet("PRAGMA page_size").getInt64();
 }

@@ -1,5 +1,7 @@
 // A farm with a journal, and the same farm after the end of its process.
 #pragma once
+#include <SQLiteCpp/SQLiteCpp.h>
+
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,6 +11,8 @@
 #include "tests/support/scratch_folder.h"
 
 namespace rayfarm {
+
+constexpr int patience = 60'000;  // ms, with the journal's own connections, where a test looks into its file
 
 class KeptFarm {
  public:
@@ -22,9 +26,7 @@ class KeptFarm {
   /// What was not kept is gone. The files are moved as they are: nobody closes them, as when the process is killed.
   void crash(const std::function<void(std::string& log)>& damage = {}) {
     std::filesystem::create_directory(folder_ / "after");
-    for (const char* name : {"journal.db", "journal.db-wal"})
-      if (std::filesystem::exists(folder_ / name))
-        std::filesystem::copy_file(folder_ / name, folder_ / "after" / name);
+    copy_files(folder_ / "after");
     close();
     for (const char* name : {"journal.db", "journal.db-wal", "journal.db-shm"})
       std::filesystem::remove(folder_ / name);
@@ -49,6 +51,15 @@ class KeptFarm {
   }
 
  private:
+  /// As they are at one instant: while somebody else writes, the log is not emptied; and what is just moved from there into
+  /// the file stays in it.
+  void copy_files(const std::filesystem::path& to) {
+    SQLite::Database other(file().string(), SQLite::OPEN_READWRITE, patience);
+    const SQLite::Transaction writing(other, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const char* name : {"journal.db", "journal.db-wal"})
+      if (std::filesystem::exists(folder_ / name)) std::filesystem::copy_file(folder_ / name, to / name);
+  }
+
   ScratchFolder folder_;
   FarmLimits limits_;
   std::unique_ptr<Journal> journal_;
