@@ -120,10 +120,13 @@ std::string field_of(const X509* certificate, int field) {
   return place < 0 ? "" : text_of(X509_NAME_ENTRY_get_data(X509_NAME_get_entry(name, place)));
 }
 
+/// Empty when so many bytes are no address.
 std::string address_text(const ASN1_OCTET_STRING* bytes) {
+  const int length = ASN1_STRING_length(bytes);
+  if (length != sizeof(in_addr) && length != sizeof(in6_addr)) return "";
   std::array<char, INET6_ADDRSTRLEN> text{};
-  const int family = ASN1_STRING_length(bytes) == 4 ? AF_INET : AF_INET6;
-  inet_ntop(family, ASN1_STRING_get0_data(bytes), text.data(), text.size());
+  inet_ntop(length == sizeof(in_addr) ? AF_INET : AF_INET6, ASN1_STRING_get0_data(bytes), text.data(),
+            text.size());
   return text.data();
 }
 
@@ -202,7 +205,9 @@ std::string issue(const Identity& authority, const std::string& request, const O
   add_to_name(X509_get_subject_name(issued.get()), "CN", owner.name);
   add_extension(issued.get(), issuer.get(), NID_basic_constraints, "critical,CA:FALSE");
   add_extension(issued.get(), issuer.get(), NID_key_usage, "critical,digitalSignature");
-  add_extension(issued.get(), issuer.get(), NID_ext_key_usage, "serverAuth,clientAuth");  // either may dial
+  // Either may dial, which our own programs know; others must not take a worker for the master's web server.
+  add_extension(issued.get(), issuer.get(), NID_ext_key_usage,
+                owner.role == PeerRole::master ? "serverAuth,clientAuth" : "clientAuth");
   add_extension(issued.get(), issuer.get(), NID_subject_key_identifier, "hash");
   add_extension(issued.get(), issuer.get(), NID_authority_key_identifier, "keyid");
   if (const std::string names = alternative_names(owner.hosts); !names.empty())

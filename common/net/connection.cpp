@@ -216,6 +216,8 @@ asio::awaitable<In> Connection<In, Out>::receive() {
   for (;;) {
     co_await fill(frame_header_size);
     const FrameHeader header = decode_header<In>(ByteView(buffer_).subspan(begin_, frame_header_size));
+    if (header.size > largest_)
+      throw CodecError("a message of " + std::to_string(header.size) + " bytes comes too early");
     if (end_ - begin_ < frame_header_size + header.size) frame_due_ = due(header.size);
     co_await fill(frame_header_size + header.size);
     In message =

@@ -7,7 +7,9 @@
 #include <asio/awaitable.hpp>
 #include <asio/steady_timer.hpp>
 #include <chrono>
+#include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -46,6 +48,9 @@ class Connection {
   asio::awaitable<void> wait_for_end();
   /// The next message must come within this time, or tend() throws.
   void expect_message_within(std::chrono::milliseconds patience);
+  /// Until it is called again: receive() throws CodecError when a larger message begins. At first any size is good that
+  /// its kind may have.
+  void take_messages_up_to(std::uint32_t bytes) { largest_ = bytes; }
 
   asio::any_io_executor executor() { return channel_.executor(); }
   const Channel& channel() const { return channel_; }
@@ -82,6 +87,7 @@ class Connection {
   // Incoming. Bytes begin_ to end_ of the buffer have come and wait to be decoded.
   Bytes buffer_;
   std::size_t begin_ = 0, end_ = 0;
+  std::uint32_t largest_ = std::numeric_limits<std::uint32_t>::max();
   Deadline frame_due_;    // while a frame has come in part
   Deadline message_due_;  // expect_message_within()
   Clock::time_point heard_;

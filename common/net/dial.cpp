@@ -6,6 +6,7 @@
 #include <asio/steady_timer.hpp>
 
 #include "common/net/connection.h"
+#include "common/net/text.h"
 #include "common/net/until_first_ends.h"
 
 namespace rayfarm {
@@ -46,10 +47,13 @@ void check_exposure(const Places& places, const Address& address, const Security
   throw AddressError("address \"" + text_of(address) + "\" cannot be used: " + error.message());
 }
 
+/// What a refused certificate says of itself is anybody's words, for a log.
 void check_peer(const Channel& channel) {
   if (!channel.peer() || channel.peer()->fault.empty()) return;
-  throw ConnectionLost("the certificate of \"" + channel.peer()->facts.name +
-                       "\" is refused: " + channel.peer()->fault);
+  const std::string& name = channel.peer()->facts.name;
+  const bool is_name = name.size() <= max_owner_name && is_plain_text(name);
+  throw ConnectionLost("the certificate of " + (is_name ? '"' + name + '"' : std::string("no name")) +
+                       " is refused: " + channel.peer()->fault);
 }
 
 asio::awaitable<Places> resolve(const Address& address) {

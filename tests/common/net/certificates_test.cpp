@@ -1,6 +1,11 @@
 #include "common/net/certificates.h"
 
 #include <gtest/gtest.h>
+#include <openssl/x509v3.h>
+
+#include <array>
+
+#include "common/net/pem.h"
 
 namespace rayfarm {
 namespace {
@@ -56,6 +61,27 @@ TEST(Certificates, OfGarbageAreAnError) {
   EXPECT_THROW(facts_of("-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n"), CertificateError);
   EXPECT_THROW(facts_of(""), CertificateError);
   EXPECT_THROW(certificate_request(authority().certificate), CertificateError);
+}
+
+TEST(Certificates, OfWorkersAreNotTakenForThoseOfServers) {
+  const auto may_serve = [](PeerRole role) {
+    const CertificatePtr made = certificate_in(certificate_of({role, "lab1"}));
+    return X509_check_purpose(made.get(), X509_PURPOSE_SSL_SERVER, 0) == 1;
+  };
+  EXPECT_TRUE(may_serve(PeerRole::master));
+  EXPECT_FALSE(may_serve(PeerRole::worker));
+}
+
+// SubjectAltName with an iPAddress of one byte: RFC 5280, 4.2.1.6 wants four or sixteen.
+TEST(Certificates, NameNoHostByAnAddressOfAnotherLength) {
+  const CertificatePtr certificate = certificate_in(certificate_of({PeerRole::worker, "lab1"}));
+  constexpr std::array<unsigned char, 5> names{0x30, 0x03, 0x87, 0x01, 0x7f};
+  const std::unique_ptr<ASN1_OCTET_STRING, FreedBy<ASN1_OCTET_STRING_free>> value(ASN1_OCTET_STRING_new());
+  ASN1_OCTET_STRING_set(value.get(), names.data(), names.size());
+  const std::unique_ptr<X509_EXTENSION, FreedBy<X509_EXTENSION_free>> extension(
+      X509_EXTENSION_create_by_NID(nullptr, NID_subject_alt_name, 0, value.get()));
+  ASSERT_EQ(X509_add_ext(certificate.get(), extension.get(), -1), 1);
+  EXPECT_EQ(facts_of(pem_of(certificate.get())).hosts, std::vector<std::string>());
 }
 
 TEST(Keys, AreNeverTheSame) { EXPECT_NE(new_key(), new_key()); }

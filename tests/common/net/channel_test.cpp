@@ -111,6 +111,13 @@ TEST(Channel, IsRefusedToACertificateOfAnotherFarmOrThatHasExpired) {
             "the certificate of \"lab7\" is refused: it is not valid yet: is this PC's clock right?");
 }
 
+TEST(Channel, OfOneThatIsRefusedLeavesNoWordsOfItsOwnInALog) {
+  const FarmKeys other;
+  for (const std::string& name : {std::string("lab\n[info] lab7 was paired"), std::string("\x1b[2J")})
+    EXPECT_EQ(Ends(other.of_worker(name), farm().of_master()).accepted_fault,
+              "the certificate of no name is refused: it is of another farm");
+}
+
 TEST(Channel, IsRefusedToAWorkerThatPassesForTheMaster) {
   const Security spy = farm().of_master(farm().identity(PeerRole::worker, "spy"));
   EXPECT_EQ(Ends(farm().of_worker("lab7"), spy).dialled_fault,
