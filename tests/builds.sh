@@ -41,9 +41,9 @@ try() {  # NAME -DOPTION=VALUE...
   same+=("$1")
 }
 
-try O1 -DCMAKE_CXX_FLAGS_RELEASE=-O1
+try O1-x86-64-v2 -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DRAYFARM_MARCH=x86-64-v2
 try clang -DCMAKE_CXX_COMPILER=clang++
-for level in x86-64-v2 x86-64-v3 x86-64-v4; do
+for level in x86-64-v3 x86-64-v4; do
   if can_run $level; then try $level -DRAYFARM_MARCH=$level; else skipped+=("$level"); fi
 done
 
