@@ -116,6 +116,10 @@ std::optional<std::string> Farm::objection_to(const std::string& wanted_name,
       std::max(state_->known_workers.size(), state_->name_ids.size()) >= state_->limits.worker_names)
     return "this farm has known " + std::to_string(state_->limits.worker_names) +
            " workers and takes in no new one; give this PC a --name that one of them had";
+  if (is_new && known != state_->known_workers.end() &&
+      known->second.names.size() >= state_->limits.names_of_one)
+    return "workers with this certificate have had " + std::to_string(state_->limits.names_of_one) +
+           " names and get no new one; give this one a --name that one of them had";
   for (const std::string& name : {wanted_name, state_->unique_name(wanted_name)})
     if (state_->banned_names.contains(name)) return words_for_banned(name);
   return std::nullopt;

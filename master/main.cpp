@@ -15,6 +15,7 @@
 #include "common/daemon/stop_signals.h"
 #include "common/daemon/system.h"
 #include "common/net/run_until_end.h"
+#include "common/net/stranger_log.h"
 #include "master/diagnostics/diagnostics.h"
 #include "master/http/server.h"
 #include "master/local_threads.h"
@@ -70,7 +71,8 @@ void declare_keeping(CLI::App& app, Keeping& keep) {
       ->type_name("N")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  app.add_option("--keep-days", keep.days, "And for so many days after their end; without it as long as there is room")
+  app.add_option("--keep-days", keep.days,
+                 "And for so many days after their end; without it as long as there is room")
       ->type_name("D")
       ->check(CLI::Range(1, 36'500));
   app.add_option("--keep-gb", keep.gigabytes,
@@ -189,7 +191,7 @@ int serve(const Arguments& arguments) {
       [&](Told told) { farm.once_kept(std::move(told)); });
   FrameFeeder feeder(door);
   Diagnostics diagnostics(std::max(1u, std::thread::hardware_concurrency()));
-  std::string last_told;  // one that comes again and again is told of once
+  StrangerLog people_refused;
   const MasterDoor master{
       [&](const std::string& target) { sessions.dial(parse_dial_target(target)); },
       [&] { return sessions.dialling(); },
@@ -197,11 +199,15 @@ int serve(const Arguments& arguments) {
       [&](const std::string& name) { return sessions.stop_dialling(name); },
       [&](const std::set<std::string>& certificates) { sessions.cut_off(certificates); },
       [&](const std::string& line) {
-        asio::post(io, [&farm, &last_told, line] {
-          if (std::exchange(last_told, line) != line) farm.note({true, line, ""});
+        asio::post(io, [&farm, &people_refused, line] {
+          const auto told = people_refused.line_for(line, std::chrono::steady_clock::now());
+          if (told) farm.note({true, *told, ""});
         });
       },
       farm_address(sessions.listening_at()),
+      [&](const std::string& line) { asio::post(io, [&farm, line] {
+                                       farm.note({false, line, ""});
+                                     }); },
   };
   const AppFiles app;
   const SceneLibrary scenes;

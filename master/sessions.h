@@ -2,6 +2,7 @@
 #pragma once
 #include <asio/io_context.hpp>
 #include <list>
+#include <memory>
 #include <optional>
 #include <random>
 #include <set>
@@ -10,6 +11,7 @@
 #include "common/net/backoff.h"
 #include "common/net/connection.h"
 #include "common/net/dial.h"
+#include "common/net/stranger_log.h"
 #include "master/access/access.h"
 #include "master/dialling.h"
 #include "master/live_farm.h"
@@ -24,9 +26,10 @@ struct DialTarget {
 /// NAME=HOST[:PORT]. Throws AddressError.
 DialTarget parse_dial_target(std::string_view text);
 
-struct DoorTimes {
+struct DoorLimits {
   ConnectionTimes connection;
   BackoffTimes backoff;
+  std::size_t strangers = 1024;  // at once, who are no workers yet; for one more the oldest goes
 };
 
 /// All calls are made from the thread that runs `io`, which is the farm's.
@@ -35,7 +38,7 @@ class Sessions {
   /// Listens from now on; throws AddressError when it cannot. `access` says which certificates are still good, and
   /// makes new ones for those who bring a code; without it nobody is paired.
   Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Security security,
-           DoorTimes times = {}, Access* access = nullptr);
+           DoorLimits limits = {}, Access* access = nullptr);
   ~Sessions();
 
   const Address& listening_at() const { return listening_at_; }
@@ -56,6 +59,11 @@ class Sessions {
  private:
   struct Session;
   struct Dialled;
+  struct Stranger {
+    int socket;
+    bool is_leaving = false;
+  };
+  class Visit;
 
   asio::awaitable<void> accept_all();
   asio::awaitable<void> tick();
@@ -66,7 +74,7 @@ class Sessions {
   asio::awaitable<std::string> try_stranger(asio::ip::tcp::socket socket);
   asio::awaitable<void> receive(std::optional<Channel>& channel, asio::ip::tcp::socket socket);
   asio::awaitable<void> wait_until_stopping();
-  asio::awaitable<std::string> serve(Channel channel, const Dialled* dialled);
+  asio::awaitable<std::string> serve(Channel channel, const Dialled* dialled, Visit* visit);
   asio::awaitable<void> converse(Session& session);
   void open(Session& session, const ToMaster& first);
   void pair(Session& session, const ToMaster& first);
@@ -78,14 +86,15 @@ class Sessions {
   asio::io_context& io_;
   LiveFarm& farm_;
   Security security_;
-  DoorTimes times_;
+  DoorLimits limits_;
   Access* const access_;
   asio::ip::tcp::acceptor acceptor_;
   Address listening_at_;
   std::set<Session*> sessions_;
   std::list<Dialled> dialled_;
-  std::string last_stranger_;  // as the log has it: one that comes again and again is told of once
-  asio::steady_timer ended_;   // never expires: cancelled when a session ends, or all shall
+  const std::shared_ptr<std::list<Stranger>> strangers_;  // the oldest first; visits may outlive us
+  StrangerLog strangers_refused_;
+  asio::steady_timer ended_;  // never expires: cancelled when a session ends, or all shall
   bool stopping_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iostream>
 #include <random>
 #include <thread>
@@ -62,6 +63,12 @@ std::string first_line_of(std::istream& in) {
   std::string line;
   std::getline(in, line);
   return line;
+}
+
+/// Other users of this PC can read what a program was called with.
+void hide(const std::string& secret, int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (argv[i] == secret) std::fill_n(argv[i], secret.size(), '*');
 }
 
 constexpr int master_unreachable = 3, not_allowed = 4,
@@ -147,6 +154,7 @@ int main(int argc, char** argv) {
   CLI::App app("Renders tiles for a rayfarm master, with the threads of this PC.", "rayfarm-worker");
   const CLI::App* join = rayfarm::declare(app, arguments);
   return rayfarm::run_daemon(app, argc, argv, [&] {
+    if (!arguments.code.empty()) rayfarm::hide(arguments.code, argc, argv);
     return join->parsed() ? rayfarm::join_farm(arguments) : rayfarm::serve(rayfarm::options_of(arguments));
   });
 }

@@ -99,7 +99,9 @@ asio::awaitable<void> WorkerDaemon::serve_stranger(tcp::socket socket) {
     auto conversation = session_ ? decline(std::move(channel)) : talk(std::move(channel));
     co_await std::move(conversation);
   } catch (const ConnectionLost& error) {
-    spdlog::warn("no master at {}: {}", address, error.what());
+    const auto line = strangers_refused_.line_for("no master at " + address + ": " + error.what(),
+                                                  std::chrono::steady_clock::now());
+    if (line) spdlog::warn("{}", *line);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/net/backoff.h"
 #include "common/net/dial.h"
+#include "common/net/stranger_log.h"
 #include "worker/session.h"
 
 namespace rayfarm {
@@ -60,6 +61,7 @@ class WorkerDaemon {
   asio::steady_timer ended_;                // never expires: cancelled when a session ends, or all shall
   bool stopping_ = false;
   std::string last_loss_;
+  StrangerLog strangers_refused_;
 };
 
 }  // namespace rayfarm

@@ -132,6 +132,13 @@ void Access::check_worker(const CertificateFacts& certificate, WallTime now) con
   credentials_.check(CredentialKind::certificate, certificate.id, now);
 }
 
+void Access::check_name(const CertificateFacts& certificate, const std::string& name, WallTime now) const {
+  const std::lock_guard lock(mutex_);
+  if (credentials_.is_name_of_another(name, certificate, now))
+    throw AccessRefused("another worker was paired as \"" + name + "\", and this one as \"" +
+                        certificate.name + "\": give it a --name of its own, or revoke the other");
+}
+
 /// A good one is never shut out: whoever shares its address (a proxy's, this PC's) may be wrong as often as they like.
 template <class Look>
 auto Access::look_up(const std::string& from, WallTime now, Look look) {

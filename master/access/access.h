@@ -54,6 +54,8 @@ class Access {
   std::string pair(const Join& asked, const std::string& from, WallTime now);
   /// The worker that has this certificate may come. Throws AccessRefused.
   void check_worker(const CertificateFacts& certificate, WallTime now) const;
+  /// It may call itself that: nobody else was paired under this name. Throws AccessRefused.
+  void check_name(const CertificateFacts& certificate, const std::string& name, WallTime now) const;
   /// Who shows this token, or cookie. Throws AccessRefused.
   Credential check_person(const std::string& shown, const std::string& from, WallTime now);
 

@@ -65,8 +65,16 @@ Credential Credentials::check(CredentialKind kind, const std::string& proof, Wal
   return all_[find(kind, proof, now)];
 }
 
+bool Credentials::is_name_of_another(const std::string& name, const CertificateFacts& certificate,
+                                     WallTime now) const {
+  return name != certificate.name && std::ranges::any_of(all_, [&](const Credential& c) {
+           return c.kind == CredentialKind::certificate && c.name == name && !c.is_revoked && now < c.until;
+         });
+}
+
 std::vector<Credential> Credentials::revoke(std::string_view id_or_name) {
   std::set<std::string, std::less<>> ended;
+  if (!id_or_name.empty()) ended.emplace(id_or_name);  // what came of a code outlives it
   std::vector<Credential> revoked;
   for (Credential& c : all_) {  // a parent is older than what came of it
     const bool is_named =

@@ -57,6 +57,9 @@ class Credentials {
   Credential use(CredentialKind kind, const std::string& proof, WallTime now);
   /// What this proves just now. Throws AccessRefused.
   Credential check(CredentialKind kind, const std::string& proof, WallTime now) const;
+  /// A worker that was paired under this name may still come, and it is not the one of this certificate, which was
+  /// paired under another.
+  bool is_name_of_another(const std::string& name, const CertificateFacts& certificate, WallTime now) const;
   /// By id, or the name of a worker; also what came of it. All that was revoked by that.
   std::vector<Credential> revoke(std::string_view id_or_name);
   /// Of those that this was exchanged for only so many stay, the last ones.

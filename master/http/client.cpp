@@ -139,10 +139,12 @@ asio::awaitable<HttpReply> exchange(const HttpRequest& asked, const Peer& peer, 
 
 HttpReply send(const HttpRequest& request) {
   constexpr auto glance = std::chrono::milliseconds(50);
-  const Peer peer = peer_of(request.url);
+  Peer peer = peer_of(request.url);
   if (!request.token.empty() && !peer.is_encrypted && !is_on_this_pc(peer.host))
     throw std::invalid_argument("the token would go to " + request.url +
                                 " for everybody on the network to read; say https://");
+  // While no master is up, any user of this PC may listen in its place; the farm's certificate only the master has.
+  if (!request.token.empty()) peer.is_encrypted = true;
   asio::io_context io(1);
   HttpStream stream{beast::tcp_stream(io)};
   std::optional<HttpReply> reply;
@@ -165,7 +167,9 @@ HttpReply send(const HttpRequest& request) {
     if (error.code() == http::error::end_of_stream && !peer.is_encrypted)
       throw MasterUnreachable("who is at " + request.url +
                               " answers nothing: a master that encrypts wants https://");
-    throw MasterUnreachable("no master answers at " + request.url + " (" + error.code().message() + ")");
+    const bool encrypts_unasked = peer.is_encrypted && request.url.starts_with("http://");
+    throw MasterUnreachable("no master answers at " + request.url + " (" + error.code().message() +
+                            (encrypts_unasked ? "; with a token it is asked over TLS alone)" : ")"));
   }
   return std::move(*reply);
 }

@@ -18,7 +18,7 @@ namespace rayfarm {
 class Access;
 class Diagnostics;
 
-/// What of the master is not the farm's. All functions but tell() are called on the farm's thread.
+/// What of the master is not the farm's. All functions but tell() and note() are called on the farm's thread.
 struct MasterDoor {
   /// NAME=HOST[:PORT], from now on. Throws AddressError and NameInUse.
   std::function<void(const std::string& target)> dial;
@@ -29,9 +29,11 @@ struct MasterDoor {
   std::function<bool(const std::string& name)> stop_dialling{};
   /// Ends the connections of workers with these certificates.
   std::function<void(const std::set<std::string>& certificates)> cut_off;
-  /// A line for the log, from any thread.
+  /// Whom we refuse, for the log, which has room for so many; from any thread.
   std::function<void(const std::string& line)> tell;
   std::string farm_address{};  // HOST:PORT where workers of other PCs come
+  /// What was done, for the log; from any thread.
+  std::function<void(const std::string& line)> note = [](const std::string&) {};
 };
 
 /// All of it outlives the server.

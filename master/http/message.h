@@ -51,7 +51,8 @@ struct ApiRequest {
   std::string from{};                     // numeric address of the other end
   std::string our_url{};                  // under which other PCs find the master
   bool is_encrypted = false;
-  bool is_forwarded = false;  // somebody else asks through a proxy, which says so
+  bool is_forwarded = false;          // somebody else asks through a proxy, which says so
+  std::function<bool()> may_still{};  // whether the asker still may what they were let in for; none: they do
 };
 
 /// How long a browser may keep an answer.

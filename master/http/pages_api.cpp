@@ -37,7 +37,10 @@ ApiResponse log_in(const Call& call) {
   try {
     const Issued session =
         with_code ? access.log_in(secret, from, now) : access.log_in_with_token(secret, from, now);
-    ApiResponse welcome = shown(to_json(session.credential));
+    const Credential& made = session.credential;
+    call.doors.master.note("session " + made.id + " of " + made.parent + " (" +
+                           std::string(name_of(made.role)) + ") began at " + from);
+    ApiResponse welcome = shown(to_json(made));
     welcome.cookie = session_cookie(text_of(session.token), call.request.is_encrypted);
     return welcome;
   } catch (const AccessRefused& refused) {

@@ -16,12 +16,12 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <list>
 #include <thread>
 
 #include "common/net/tls.h"
 #include "master/http/api.h"
 #include "master/http/guard.h"
+#include "master/http/guests.h"
 #include "master/http/http_stream.h"
 #include "master/http/http_words.h"
 #include "master/http/listen.h"
@@ -61,21 +61,6 @@ class MemoryShare {
   const std::uint64_t bytes_;
 };
 
-/// Connections that nobody would miss, most of which wait for a request; the one that has waited longest first.
-using IdleConnections = std::list<HttpStream*>;
-
-class IdleTime {
- public:
-  IdleTime(IdleConnections& all, HttpStream& stream) : all_(all), place_(all.insert(all.end(), &stream)) {}
-  ~IdleTime() { all_.erase(place_); }
-  IdleTime(const IdleTime&) = delete;
-  IdleTime& operator=(const IdleTime&) = delete;
-
- private:
-  IdleConnections& all_;
-  const IdleConnections::iterator place_;
-};
-
 /// True when the peer has closed the connection, or its half of it.
 bool has_left(int socket) {
   pollfd looked_at{socket, POLLRDHUP, 0};
@@ -100,9 +85,10 @@ struct HttpServer::Parts {
 
   asio::awaitable<void> accept_all();
   asio::awaitable<void> session(HttpStream stream);
+  bool make_room();
   asio::awaitable<bool> greet(HttpStream& stream, beast::flat_buffer& buffer);
   asio::awaitable<void> see_off(HttpStream& stream);
-  asio::awaitable<Then> converse(HttpStream& stream, beast::flat_buffer& buffer);
+  asio::awaitable<Then> converse(HttpStream& stream, beast::flat_buffer& buffer, Guest& guest);
   asio::awaitable<Then> reply(HttpStream& stream, ApiResponse answer,
                               const RequestParser::value_type& request, bool keep_alive);
   asio::awaitable<ApiResponse> respond(const ApiRequest& request);
@@ -119,7 +105,7 @@ struct HttpServer::Parts {
   std::optional<asio::ssl::context> tls;
   ListenAddress listening;
   std::string our_url;
-  int connections = 0;
+  Guests guests;
   IdleConnections idle;
   std::uint64_t body_bytes = 0;    // that peers may send just now
   std::uint64_t answer_bytes = 0;  // that peers have not taken yet
@@ -142,27 +128,31 @@ asio::awaitable<void> HttpServer::Parts::accept_all() {
       co_await pause.async_wait(asio::use_awaitable);
       continue;
     }
-    if (connections >= settings.connections) {
-      if (idle.empty()) continue;  // closes it
-      idle.front()->next_layer().close();
-    }
-    ++connections;
+    if (guests.count() >= settings.connections && !make_room()) continue;  // closes it
     asio::co_spawn(io, session(HttpStream(beast::tcp_stream(std::move(socket)))), asio::detached);
   }
 }
 
+/// For one more. Who was told to go may take a moment, but not all of them.
+bool HttpServer::Parts::make_room() {
+  if (guests.count() >= 2 * settings.connections) return false;
+  if (idle.empty()) return guests.send_away_one();
+  idle.front()->next_layer().close();
+  return true;
+}
+
 /// Ends when the peer does, on the first mistake, or when patience does.
 asio::awaitable<void> HttpServer::Parts::session(HttpStream stream) {
+  const Guests::Stay stay(guests, stream.next_layer().socket().native_handle());
   Then then = Then::next_request;
   try {
     beast::flat_buffer buffer(header_limit + 1024);
     if (!co_await greet(stream, buffer)) then = Then::nothing;
-    while (then == Then::next_request) then = co_await converse(stream, buffer);
+    while (then == Then::next_request) then = co_await converse(stream, buffer, stay.guest());
   } catch (const std::exception&) {  // of the peer's making; nobody is left to be told
     then = Then::farewell;
   }
   if (then == Then::farewell) co_await see_off(stream);
-  --connections;
 }
 
 /// TLS or plaintext, as the peer begins; false: the latter is not spoken with it, and nothing is said.
@@ -170,7 +160,10 @@ asio::awaitable<bool> HttpServer::Parts::greet(HttpStream& stream, beast::flat_b
   const IdleTime idling(idle, stream);
   stream.next_layer().expires_after(settings.header_patience);
   const bool wants_tls = co_await beast::async_detect_ssl(stream.next_layer(), buffer, asio::use_awaitable);
-  if (!wants_tls) co_return allows_plaintext(settings, peer_address(stream.next_layer().socket()));
+  const auto from = peer_address(stream.next_layer().socket());
+  if (!wants_tls && !allows_plaintext(settings, from))
+    doors.master.tell("nobody at " + from.to_string() + ": it asks without encryption");
+  if (!wants_tls) co_return allows_plaintext(settings, from);
   if (!tls) co_return false;
   HttpStream::Tls& encrypted = stream.encrypt(*tls);
   const asio::const_buffer begun = buffer.cdata();
@@ -192,10 +185,11 @@ bool HttpServer::Parts::may_look(const std::string& shown, const std::string& fr
 /// Reads and forgets what the peer still sends, for a while: closing at once would reset the connection, and
 /// the answer could be lost on its way.
 asio::awaitable<void> HttpServer::Parts::see_off(HttpStream& stream) {
-  boost::system::error_code error;
+  const IdleTime idling(idle, stream);
+  boost::system::error_code error, ignored_error;
   stream.next_layer().expires_after(farewell_patience);
   if (stream.tls()) co_await stream.tls()->async_shutdown(asio::redirect_error(asio::use_awaitable, error));
-  stream.next_layer().socket().shutdown(tcp::socket::shutdown_send, error);
+  stream.next_layer().socket().shutdown(tcp::socket::shutdown_send, ignored_error);
   std::array<char, 4096> ignored;
   const asio::mutable_buffer buffer = asio::buffer(ignored);
   while (!error)
@@ -203,7 +197,8 @@ asio::awaitable<void> HttpServer::Parts::see_off(HttpStream& stream) {
 }
 
 /// One request and its answer.
-asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::flat_buffer& buffer) {
+asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::flat_buffer& buffer,
+                                                  Guest& guest) {
   RequestParser parser;
   parser.header_limit(header_limit);
   parser.body_limit(submission_limit);
@@ -219,15 +214,22 @@ asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::fla
   request.from = peer_address(stream.next_layer().socket()).to_string(), request.our_url = our_url;
   request.is_encrypted = stream.tls() != nullptr;
   std::optional<ApiResponse> refused = error ? complaint(error, 0) : refusal(request, listening);
+  if (refused && refused->status == 403)
+    doors.master.tell("nobody at " + request.from + ": a page from elsewhere, or for another name, asks");
   if (error && !refused) co_return Then::farewell;
   std::optional<Asker> asker;
   const auto denied = [&]() -> std::optional<ApiResponse> {
     const std::optional<Role> needed = role_needed(request);
     if (!needed) return std::nullopt;
     asker = asker_of(request, settings.exposure, doors.access, doors.master.tell);
-    return denial(asker, *needed);
+    std::optional<ApiResponse> denial_now = denial(asker, *needed);
+    if (denial_now && asker)
+      doors.master.tell("who is " + std::string(name_of(asker->role)) + " at " + request.from + " may not " +
+                        request.method + " " + request.target);
+    return denial_now;
   };
   if (!refused) refused = denied();
+  if (asker) guest.who = asker->shown.empty() ? request.from : asker->shown;
   std::optional<IdleTime> yielding;  // who is nobody makes room for others until the answer is theirs
   if (!asker) yielding.emplace(idle, stream);
   const std::uint64_t limit = body_limit(request);
@@ -256,6 +258,8 @@ asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::fla
   }
 
   request.body = std::move(parser.get().body());
+  if (asker)
+    request.may_still = [this, shown = asker->shown, from = request.from] { return may_look(shown, from); };
   request.has_left = [socket = stream.next_layer().socket().native_handle()] { return has_left(socket); };
   ApiResponse answered = co_await respond(request);
   if (request.method == "GET")  // nor does who was let in then see what there is now

@@ -1,8 +1,8 @@
 // The HTTP server: a thread of its own with Boost.Beast, which no other room sees.
 //
 // Bounds on every peer: header 8 KB, body as the API says, a deadline on each step. When there are too many
-// connections, the one that has been idle longest is closed. Of answers over 1 MB, 1 GB in all waits for its
-// readers.
+// connections, the one that has been idle longest is closed, or where none is, the oldest of those who have most. Of
+// answers over 1 MB, 1 GB in all waits for its readers.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct HttpSettings {
   Exposure exposure = Exposure::loopback_only;  // of plaintext, and of askers without a token
   std::optional<Identity> identity{};      // its certificate, and the authorities behind it; none: no TLS
   std::string outward_host = "127.0.0.1";  // in links, where any address is listened to
-  int connections = 1024;                  // at once, viewers among them
+  std::size_t connections = 1024;          // at once, viewers among them
   std::chrono::milliseconds header_patience{30'000};  // also how long an idle connection is kept
   std::chrono::milliseconds body_patience{60'000};    // 64 MB from a slow PC of the lab
   std::chrono::milliseconds viewer_patience{60'000};  // with one who takes nothing of what it watches

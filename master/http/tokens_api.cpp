@@ -32,6 +32,12 @@ std::string time_text(WallTime time) {
   return text.data();
 }
 
+/// token 3f2a91c0 ("Ada", artist)
+std::string words_for(const Credential& c) {
+  return std::string(name_of(c.kind)) + " " + c.id + " (" + (c.name.empty() ? "" : '"' + c.name + "\", ") +
+         std::string(name_of(c.role)) + ")";
+}
+
 std::string_view state_of(const Credential& c, WallTime now) {
   if (c.is_revoked) return "revoked";
   if (now >= c.until) return "expired";
@@ -102,11 +108,13 @@ ApiResponse make_token(const Call& call) {
   const CredentialWish wish = wish_in(body_of(call));
   const WallTime now = std::chrono::system_clock::now();
   const Issued issued = access.issue(wish, now);
+  call.doors.master.note(words_for(issued.credential) + " was made at " + call.request.from);
   json answer = to_json(issued.credential, now);
   answer["token"] = text_of(issued.token);
   answer["authority"] = access.fingerprint();
   if (wish.kind == CredentialKind::pairing_code) answer["master"] = call.doors.master.farm_address;
-  if (wish.kind == CredentialKind::login_link)  // after #, so that it stands in no server's log and nobody fetches it
+  if (wish.kind ==
+      CredentialKind::login_link)  // after #, so that it stands in no server's log and nobody fetches it
     answer["link"] = call.request.our_url + "/#/login/" + text_of(issued.token);
   return {201, "application/json", answer.dump()};
 }
@@ -132,7 +140,10 @@ ApiResponse revoke_token(const Call& call) {
   });
   const WallTime now = std::chrono::system_clock::now();
   json answer = json::array();
-  for (const Credential& c : revoked) answer.push_back(to_json(c, now));
+  for (const Credential& c : revoked) {
+    call.doors.master.note(words_for(c) + " was revoked at " + call.request.from);
+    answer.push_back(to_json(c, now));
+  }
   return shown({{"revoked", std::move(answer)}});
 }
 

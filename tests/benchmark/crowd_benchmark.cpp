@@ -115,7 +115,7 @@ Run run_a_job(MasterThread& master) {
 
 void measure(int count, const FarmKeys& keys, int addresses) {
   const double before = resident();
-  MasterThread master(DoorTimes{}, {"127.0.0.1", 0}, keys.of_master());
+  MasterThread master(DoorLimits{}, {"127.0.0.1", 0}, keys.of_master());
   const std::uint16_t port = master.address().port;
   const auto begin = Clock::now();
   if (::write(addresses, &port, sizeof port) != sizeof port) throw std::runtime_error("the crowd is gone");

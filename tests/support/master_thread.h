@@ -10,7 +10,7 @@
 namespace rayfarm {
 
 /// No deadline within a test; back-off without waiting.
-inline DoorTimes patient_door() {
+inline DoorLimits patient_door() {
   using namespace std::chrono_literals;
   return {{100ms, 60s, 60s}, {1ms, 10ms}};
 }
@@ -26,7 +26,7 @@ class MasterThread {
   }
 
  public:
-  explicit MasterThread(DoorTimes times = patient_door(), const Address& listen = {"127.0.0.1", 0},
+  explicit MasterThread(DoorLimits times = patient_door(), const Address& listen = {"127.0.0.1", 0},
                         Security security = {}, Access* access = nullptr)
       : sessions_(io_, farm_, listen, std::move(security), times, access) {
     ended_ = std::async(std::launch::async, [this] { run_until_end(io_, sessions_.run()); });

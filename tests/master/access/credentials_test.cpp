@@ -74,6 +74,36 @@ TEST(Credentials, ThatAreRevokedEndWithAllThatCameOfThem) {
   EXPECT_TRUE(all.revoke("").empty());
 }
 
+TEST(Credentials, ThatAreForgottenCanStillBeRevokedWithWhatCameOfThem) {
+  Credentials all;
+  const std::string lab = all.add(code("a", 40)).id;
+  all.add(certificate("1", "lab1", lab));
+  all.forget_ended(noon + std::chrono::days(40));
+  ASSERT_EQ(all.all().size(), 1u);
+  ASSERT_EQ(all.revoke(lab).size(), 1u);
+  EXPECT_NE(refusal_of([&] { all.check(CredentialKind::certificate, "1", noon); }), "");
+}
+
+TEST(Credentials, KeepTheNamesOfOthers) {
+  Credentials all;
+  all.add(certificate("1", "lab1", "x"));
+  const std::string again = all.add(certificate("2", "lab1", "x")).id;
+  all.add(certificate("3", "lab3", "x"));
+  const auto is_taken = [&](const std::string& name, const std::string& of, WallTime when = noon) {
+    CertificateFacts facts;
+    facts.name = of;
+    return all.is_name_of_another(name, facts, when);
+  };
+  EXPECT_TRUE(is_taken("lab1", "lab3"));
+  EXPECT_FALSE(is_taken("lab1", "lab1")) << "it was paired again";
+  EXPECT_FALSE(is_taken("lab2", "lab3")) << "nobody was";
+  EXPECT_FALSE(is_taken("lab1", "lab3", noon + 1000h)) << "they have expired";
+  all.revoke(again);
+  EXPECT_TRUE(is_taken("lab1", "lab3"));
+  all.revoke("lab1");
+  EXPECT_FALSE(is_taken("lab1", "lab3"));
+}
+
 TEST(Credentials, AreReadAsTheyWereWritten) {
   Credentials all;
   const std::string lab = all.add(code("a", 3)).id;

@@ -66,6 +66,21 @@ TEST(Farm, ABannedWorkerDoesNotReturnWhileItsOldConnectionIsThere) {
   EXPECT_TRUE(farm.objection_to("pc"));
 }
 
+TEST(Farm, OneCertificateDoesNotUseUpTheNamesOfAll) {
+  Farm farm({.names_of_one = 3});
+  WorkerInfo info = remote("a");
+  info.certificate = "c0";
+  for (const char* name : {"a", "b", "c"}) {
+    info.name = name;
+    EXPECT_FALSE(farm.objection_to(name, "c0"));
+    FakeWorker worker(farm, info);
+    farm.remove_worker(worker.id(), "gone", 1s);
+  }
+  EXPECT_NE(farm.objection_to("d", "c0").value_or("").find("--name"), std::string::npos);
+  EXPECT_FALSE(farm.objection_to("b", "c0"));
+  EXPECT_FALSE(farm.objection_to("d", "c1"));
+}
+
 TEST(Farm, AWorkerThatWouldBeOneTooManyIsNotLetIn) {
   Farm farm({.worker_names = 2});
   WorkerInfo info = remote("a");

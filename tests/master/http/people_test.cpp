@@ -2,13 +2,18 @@
 #include "master/http/people.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 
+#include <algorithm>
+#include <list>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "master/http/api.h"
 #include "master/http/client.h"
+#include "tests/support/raw_listener.h"
 #include "tests/support/raw_peer.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test_server.h"
@@ -23,7 +28,13 @@ struct People : testing::Test {
   Access access{folder.path(), {"localhost", "127.0.0.1"}, now};
   FarmThread farm;
   std::mutex mutex;
-  std::vector<std::string> told;
+  std::vector<std::string> told, noted;  // refusals; what was done
+
+  /// A line with these words is among them.
+  bool has_line(const std::vector<std::string>& lines, std::string_view words) {
+    const std::lock_guard lock(mutex);
+    return std::ranges::any_of(lines, [&](const auto& line) { return line.find(words) != line.npos; });
+  }
 
   Identity identity() const {
     return {access.identity().key, access.identity().certificate + access.authority()};
@@ -36,6 +47,10 @@ struct People : testing::Test {
     door.tell = [this](const std::string& line) {
       const std::lock_guard lock(mutex);
       told.push_back(line);
+    };
+    door.note = [this](const std::string& line) {
+      const std::lock_guard lock(mutex);
+      noted.push_back(line);
     };
     return door;
   }
@@ -76,6 +91,7 @@ TEST_F(People, OfAClosedMasterAreWhatTheirTokensSay) {
   EXPECT_EQ(status("POST", "/api/v1/jobs/1/pause", viewer), 403u);
   EXPECT_EQ(status("POST", "/api/v1/jobs/1/pause", artist), 404u) << "it may, but there is no such job";
   EXPECT_EQ(status("POST", "/api/v1/workers/pc/drain", artist), 403u);
+  EXPECT_TRUE(has_line(told, "who is artist at 127.0.0.1 may not POST /api/v1/workers/pc/drain"));
   EXPECT_EQ(status("POST", "/api/v1/workers/pc/drain", admin), 404u);
   EXPECT_EQ(status("GET", "/api/v1/tokens", artist), 403u);
   EXPECT_EQ(status("GET", "/api/v1/tokens", admin), 200u);
@@ -97,6 +113,17 @@ TEST_F(People, WithoutAGoodTokenAreNobodyAndOnlyTheLogSaysWhy) {
   EXPECT_NE(told[0].find("nobody at 127.0.0.1: token " + revoked.credential.id + " was revoked"),
             std::string::npos)
       << told[0];
+}
+
+TEST_F(People, WithAnExpiredTokenAreNobodyAndTheLogSaysWhich) {
+  const TestServer server(door_to(farm), settings(Exposure::closed), master(), &access);
+  const Issued expired = access.issue({.kind = CredentialKind::token, .role = Role::admin},
+                                      now - std::chrono::hours(3));  // it was for one
+  const HttpReply reply =
+      send({.url = server.url(), .target = "/api/v1/jobs", .body = {}, .token = text_of(expired.token)});
+  EXPECT_EQ(reply.status, 401u);
+  EXPECT_EQ(reply.body.find("expired"), std::string::npos);
+  EXPECT_TRUE(has_line(told, "nobody at 127.0.0.1: token " + expired.credential.id + " has expired"));
 }
 
 TEST_F(People, OfThisPcNeedNoTokenUnlessItIsClosed) {
@@ -134,6 +161,7 @@ TEST_F(People, SpeakNoPlaintextWithAClosedMaster) {
   RawPeer peer(server.port());
   peer.send("GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
   EXPECT_EQ(peer.rest(), "");
+  EXPECT_TRUE(has_line(told, "nobody at 127.0.0.1: it asks without encryption"));
   try {
     status_of("http" + server.url().substr(5), "GET", "/api/v1/jobs", "");
     ADD_FAILURE();
@@ -266,6 +294,7 @@ TEST_F(People, CannotBeLoggedOutOrInByPagesFromElsewhere) {
               "application/json\r\nContent-Length: 2\r\nConnection: close\r\n\r\n{}");
     EXPECT_TRUE(is_status(peer.rest(), 403)) << target;
   }
+  EXPECT_TRUE(has_line(told, "nobody at 127.0.0.1: a page from elsewhere"));
 }
 
 TEST_F(People, WhoWaitForNewsGetNoneWhenTheirTokenIsRevokedMeanwhile) {
@@ -309,22 +338,74 @@ TEST_F(People, WhoAreNobodyMakeRoomWhileTheirLoginIsStillComing) {
   EXPECT_EQ(first.rest(), "") << "the longest there has gone";
 }
 
+std::string live_request(const std::string& shown) {
+  return "GET /api/v1/live HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Forwarded-For: 10.0.0.7\r\nUpgrade: "
+         "websocket\r\n"
+         "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
+         "dGhlIHNhbXBsZSBub25jZQ==\r\n"
+         "Authorization: Bearer " +
+         shown + "\r\n\r\n";
+}
+
+TEST_F(People, WhoHoldAllConnectionsLeaveRoomForOthers) {
+  HttpSettings few = settings(Exposure::loopback_only);
+  few.connections = 8;
+  const TestServer server(door_to(farm), few, master(), &access);
+  const std::string viewer = token(Role::viewer), artist = token(Role::artist);
+  RawPeer other(server.port());
+  other.send(live_request(artist));
+  EXPECT_TRUE(other.some().starts_with("HTTP/1.1 101"));
+  std::list<RawPeer> greedy;
+  for (int i = 0; i < 20; ++i) {
+    greedy.emplace_back(server.port()).send(live_request(viewer));
+    EXPECT_TRUE(greedy.back().some().starts_with("HTTP/1.1 101")) << i;
+  }
+  EXPECT_EQ(status_of(server.url(), "GET", "/api/v1/tokens", ""), 200u) << "the admin comes in";
+  greedy.front().rest();  // has gone
+  pollfd looked_at{other.descriptor(), POLLRDHUP, 0};
+  EXPECT_EQ(::poll(&looked_at, 1, 0), 0) << "who holds one connection keeps it";
+}
+
+TEST_F(People, WhoseTokenIsRevokedWhileTheirRequestWaitsForItsTurnChangeNothing) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const Issued artist = access.issue({.kind = CredentialKind::token, .role = Role::artist}, now);
+  const std::string body =
+      R"({"script": "local i = 0 while i < 3e7 do i = i + 1 end return scene{ root = sphere{} }"})";
+  const std::string request =
+      "POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nVia: 1.1 proxy\r\nContent-Type: application/json\r\n"
+      "Content-Length: " +
+      std::to_string(body.size()) + "\r\nAuthorization: Bearer " + text_of(artist.token) +
+      "\r\nConnection: close\r\n\r\n" + body;
+  std::list<RawPeer> waiting;
+  for (int i = 0; i < 40; ++i) waiting.emplace_back(server.port()).send(request);
+  EXPECT_TRUE(waiting.front().rest().starts_with("HTTP/1.1 201"));
+  access.revoke(artist.credential.id);
+  EXPECT_TRUE(waiting.back().rest().starts_with("HTTP/1.1 401")) << "it was behind the others";
+}
+
+TEST_F(People, ShowNoTokenToWhoListensInTheMastersPlace) {
+  RawListener thief;
+  const std::string shown = token(Role::admin);
+  std::string seen;
+  std::jthread stealing([&] {
+    while (!thief.accept()) std::this_thread::yield();
+    seen = thief.some();
+    thief.send("HTTP/1.1 200 OK\r\nContent-Length: 0\r\n\r\n");
+  });
+  EXPECT_THROW(status_of(thief.url(), "GET", "/api/v1/jobs", shown), MasterUnreachable);
+  stealing.join();
+  EXPECT_FALSE(seen.empty());
+  EXPECT_EQ(seen.find(shown), std::string::npos);
+}
+
 TEST_F(People, WhoWatchAreCutOffAtOnceWhenTheirTokenIsRevoked) {
   const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
   const Issued viewer = access.issue({.kind = CredentialKind::token, .role = Role::viewer}, now);
-  const auto upgrade = [&](const std::string& shown) {
-    return "GET /api/v1/live HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Forwarded-For: 10.0.0.7\r\nUpgrade: "
-           "websocket\r\n"
-           "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
-           "dGhlIHNhbXBsZSBub25jZQ==\r\n"
-           "Authorization: Bearer " +
-           shown + "\r\n\r\n";
-  };
   RawPeer nobody(server.port());
-  nobody.send(upgrade("hello"));
+  nobody.send(live_request("hello"));
   EXPECT_TRUE(nobody.rest().starts_with("HTTP/1.1 401"));
   RawPeer peer(server.port());
-  peer.send(upgrade(text_of(viewer.token)));
+  peer.send(live_request(text_of(viewer.token)));
   EXPECT_TRUE(peer.some().starts_with("HTTP/1.1 101"));
   access.revoke(viewer.credential.id);
   peer.rest();  // comes to an end
@@ -349,7 +430,11 @@ TEST_F(People, MakeAndRevokeTokensOverTheApi) {
       nlohmann::json::parse(post("/api/v1/tokens", R"({"role": "artist", "name": "Ann"})").body);
   EXPECT_EQ(access.check_person(made.at("token"), "", now).role, Role::artist);
   EXPECT_EQ(made.at("authority"), access.fingerprint());
-  EXPECT_EQ(post("/api/v1/tokens/" + made.at("id").get<std::string>() + "/revoke", "{}").status, 200u);
+  const std::string id = made.at("id");
+  EXPECT_TRUE(has_line(noted, "token " + id + " (\"Ann\", artist) was made at 127.0.0.1"));
+  EXPECT_EQ(post("/api/v1/tokens/" + id + "/revoke", "{}").status, 200u);
+  EXPECT_TRUE(has_line(noted, "token " + id + " (\"Ann\", artist) was revoked at 127.0.0.1"));
+  EXPECT_FALSE(has_line(noted, made.at("token").get<std::string>()));
   EXPECT_THROW(access.check_person(made.at("token"), "", now), AccessRefused);
   for (const char* bad : {R"({"role": "king"})", R"({"uses": 0})", R"({"ttl": -1})", R"({"name": "\u0007"})",
                           R"({"role": "worker", "link": true})"})

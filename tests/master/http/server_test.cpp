@@ -11,6 +11,7 @@
 #include "master/http/client.h"
 #include "master/http/script_submission.h"
 #include "master/http/submission.h"
+#include "tests/support/raw_listener.h"
 #include "tests/support/raw_peer.h"
 #include "tests/support/test_server.h"
 #include "tests/support/test_submission.h"
@@ -20,37 +21,6 @@ namespace {
 
 using nlohmann::json;
 using namespace std::chrono_literals;
-
-/// A port where nobody speaks HTTP: what its one peer gets is up to the test.
-class RawListener {
- public:
-  RawListener() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    ::bind(listener_, reinterpret_cast<sockaddr*>(&address), size);
-    ::listen(listener_, 1);
-    ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
-    url_ = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port));
-  }
-  ~RawListener() {
-    ::close(listener_);
-    if (accepted()) ::close(peer_);
-  }
-  RawListener(const RawListener&) = delete;
-  RawListener& operator=(const RawListener&) = delete;
-
-  const std::string& url() const { return url_; }
-  /// Takes the peer in if it is there.
-  bool accept() { return (peer_ = ::accept(listener_, nullptr, nullptr)) >= 0; }
-  bool accepted() const { return peer_ >= 0; }
-  void send(const std::string& bytes) { ::send(peer_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
-
- private:
-  int listener_, peer_ = -1;
-  std::string url_;
-};
 
 class Server : public testing::Test {
  protected:
@@ -271,6 +241,16 @@ TEST(HttpServer, WhereThereIsNoRoomTheLongestIdleGoes) {
   EXPECT_EQ(peers.front().rest(), "");
   peers.back().send(request);
   EXPECT_TRUE(peers.back().some().starts_with("HTTP/1.1 200"));
+}
+
+TEST(HttpServer, ServesOthersWhileManyAreSeenOff) {
+  FarmThread farm;
+  const TestServer server(door_to(farm), {.listen = "127.0.0.1:0", .connections = 4});
+  std::list<RawPeer> refused;
+  for (int i = 0; i < 40; ++i) {
+    refused.emplace_back(server.port()).send("GET /api/v1/jobs HTTP/1.1\r\nHost: evil.example\r\n\r\n");
+    EXPECT_TRUE(refused.back().some().starts_with("HTTP/1.1 403")) << i;  // and stays, as long as it may
+  }
 }
 
 // What a film asks of the farm is kept here, so that two films keep the threads for long work busy.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <list>
 
 #include "common/work/engine.h"
 #include "tests/support/farm_jobs.h"
@@ -156,8 +157,31 @@ TEST(Sessions, RefuseAPeerThatDoesNotSayHello) {
   EXPECT_TRUE(master.ask([](Farm& farm, FarmTime) { return farm.workers(); }).empty());
 }
 
+TEST(Sessions, EndWithWhoBeginsWithALargeMessage) {
+  MasterThread master;
+  Peer peer(master);
+  peer.send(GiveBack{std::vector<LeaseId>(8'000), ""});
+  EXPECT_NE(peer.receive_a<Refused>().reason.find("too early"), std::string::npos);
+  peer.wait_for_end();
+}
+
+TEST(Sessions, LetTheOldestStrangerGoWhenThereAreTooManyAndNoWorker) {
+  MasterThread master(DoorLimits{{100ms, 60s, 60s}, {1ms, 10ms}, 4});
+  Guest worker(master, "lab7");
+  std::list<Peer> strangers;
+  for (int i = 0; i < 7; ++i) strangers.emplace_back(master);
+  for (int i = 0; i < 3; ++i) {
+    strangers.front().wait_for_end();
+    strangers.pop_front();
+  }
+  strangers.back().send(hello_from("lab8"));
+  EXPECT_EQ(strangers.back().receive_a<Welcome>().name, "lab8");
+  submit(master, one_tile);
+  worker.next_assignment();
+}
+
 TEST(Sessions, EndWithAPeerThatOnlyBeats) {
-  MasterThread master(DoorTimes{{10ms, 60s, 30ms}, {}});
+  MasterThread master(DoorLimits{{10ms, 60s, 30ms}, {}});
   Peer peer(master);
   peer.send(Heartbeat{});
   peer.wait_for_end();
@@ -175,7 +199,7 @@ TEST(Sessions, GiveATileToTheNextWhenASocketDies) {
 }
 
 TEST(Sessions, GiveATileToTheNextWhenAWorkerIsSilent) {
-  MasterThread master(DoorTimes{{10ms, 100ms, 100ms}, {}});
+  MasterThread master(DoorLimits{{10ms, 100ms, 100ms}, {}});
   Guest silent(master, "silent");
   submit(master, one_tile);
   const std::uint32_t tile = silent.next_assignment().tile;
@@ -226,7 +250,7 @@ TEST(Sessions, EndWithAWorkerThatLies) {
 
 // Only a lower bound of time is checked: a busy PC cannot break it.
 TEST(Sessions, WaitLongerEachTimeForADialledWorkerThatIsThrownOut) {
-  MasterThread master(DoorTimes{{100ms, 60s, 60s}, {40ms, 60s}});
+  MasterThread master(DoorLimits{{100ms, 60s, 60s}, {40ms, 60s}});
   asio::io_context io;
   asio::ip::tcp::acceptor door(io, {asio::ip::address_v4::loopback(), 0});
   const auto begun = std::chrono::steady_clock::now();
