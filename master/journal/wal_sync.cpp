@@ -79,6 +79,7 @@ void WalSync::wake(std::int64_t writes) {
 
 std::optional<std::string> WalSync::take_fault() {
   const std::lock_guard lock(mutex_);
+  is_told_ = is_told_ || fault_;
   return std::exchange(fault_, std::nullopt);
 }
 
@@ -94,6 +95,8 @@ void WalSync::work() {
         sync(writes);
         lock.lock();
         synced_ = writes;
+        if (std::exchange(is_told_, false))
+          fault_.reset();                      // else it stays: a disk tells of a lost write once
       } catch (const std::exception& error) {  // it is tried again
         lock.lock();
         fault_ = error.what();

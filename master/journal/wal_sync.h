@@ -27,7 +27,7 @@ class WalSync {
 
   /// So many writes were committed; they will be synced within 100 ms, or as soon as the disk allows.
   void wake(std::int64_t writes);
-  /// Why the disk did not take what was committed; told once.
+  /// Why the disk did not take what was committed; told once for each try until it has taken all.
   std::optional<std::string> take_fault();
 
  private:
@@ -40,6 +40,7 @@ class WalSync {
   std::int64_t writes_ = 0, synced_ = 0;
   bool is_ending_ = false;
   std::optional<std::string> fault_;
+  bool is_told_ = false;  // since the disk last took all
   std::thread thread_;
 };
 
