@@ -95,7 +95,7 @@ struct FarmLimits {
   std::size_t unfinished_jobs = 10'000;
   std::uint64_t scene_bytes = std::uint64_t{2} << 30;  // of unfinished frames, each scene and asset once
   std::size_t worker_names = 10'000;  // that workers had; a worker may come under a new one each time
-  std::size_t names_of_one = 256;     // as many of those with the same certificate: a cluster may share one
+  std::size_t names_of_one = 2'500;   // of those with one certificate, which a cluster may share
   std::uint64_t secret = 0;  // that workers do not know: which of their tiles are checked follows from it
 };
 

@@ -137,7 +137,9 @@ std::vector<std::string> hosts_of(const X509* certificate) {
   for (int i = 0; names && i < sk_GENERAL_NAME_num(names.get()); ++i) {
     const GENERAL_NAME* name = sk_GENERAL_NAME_value(names.get(), i);
     if (name->type == GEN_DNS) hosts.push_back(text_of(name->d.dNSName));
-    if (name->type == GEN_IPADD) hosts.push_back(address_text(name->d.iPAddress));
+    if (name->type == GEN_IPADD)
+      if (std::string address = address_text(name->d.iPAddress); !address.empty())
+        hosts.push_back(std::move(address));
   }
   std::ranges::sort(hosts);
   return hosts;

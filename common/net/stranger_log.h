@@ -12,18 +12,17 @@ class StrangerLog {
   using Time = std::chrono::steady_clock::time_point;
 
   /// What is to be logged of this refusal: nothing when it is the last one again, or when there were ten in this minute;
-  /// of those the next line tells the number.
+  /// how many were left out the next line tells.
   std::optional<std::string> line_for(const std::string& refusal, Time now) {
-    if (refusal == last_) return std::nullopt;
     if (now - minute_ >= std::chrono::minutes(1)) minute_ = now, lines_ = 0;
-    if (lines_ == most_lines) {
+    if (refusal == last_ || lines_ == most_lines) {
       ++untold_;
       return std::nullopt;
     }
     ++lines_;
     last_ = refusal;
     const std::size_t untold = std::exchange(untold_, 0);
-    return untold == 0 ? refusal : refusal + " (and " + std::to_string(untold) + " refusals before it)";
+    return untold == 0 ? refusal : refusal + " (and " + std::to_string(untold) + " more before it)";
   }
 
  private:

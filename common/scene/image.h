@@ -19,8 +19,8 @@ struct Image {
 };
 
 constexpr std::size_t max_image_pixels = 64 << 20;
-constexpr std::size_t max_image_side = 64
-                                       << 10;  // a decoder takes memory by the row, before it sees any pixel
+/// A decoder takes memory by the row, before it sees any pixel.
+constexpr std::size_t max_image_side = 64 << 10;
 
 /// The linear light of an sRGB code, both 0 to 1. Source: IEC 61966-2-1.
 double linear_of_srgb(double code);

@@ -13,7 +13,7 @@ TEST(StrangerLog, TellsARefusalOnceHoweverOftenItComes) {
   StrangerLog log;
   EXPECT_EQ(log.line_for("a", start), "a");
   EXPECT_EQ(log.line_for("a", start + 90s), std::nullopt);
-  EXPECT_EQ(log.line_for("b", start + 90s), "b");
+  EXPECT_EQ(log.line_for("b", start + 90s), "b (and 1 more before it)");
   EXPECT_EQ(log.line_for("a", start + 90s), "a");
 }
 
@@ -24,7 +24,7 @@ TEST(StrangerLog, TellsTenInAMinuteAndOfTheOthersTheNumber) {
     if (log.line_for(i % 2 == 0 ? "a" : "b", start)) ++told;
   EXPECT_EQ(told, 10);
   EXPECT_EQ(log.line_for("c", start + 59s), std::nullopt);
-  EXPECT_EQ(log.line_for("c", start + 60s), "c (and 496 refusals before it)");
+  EXPECT_EQ(log.line_for("c", start + 60s), "c (and 991 more before it)");
   EXPECT_EQ(log.line_for("d", start + 60s), "d");
 }
 
