@@ -1,7 +1,5 @@
 // What Sessions has in memory of those it talks with.
 #pragma once
-#include <sys/socket.h>
-
 #include <algorithm>
 #include <list>
 #include <memory>
@@ -29,11 +27,11 @@ struct Sessions::Session {
 class Sessions::Visit {
  public:
   Visit(Sessions& sessions, int socket)
-      : all_(sessions.strangers_), place_(all_->insert(all_->end(), {socket})) {
+      : all_(sessions.strangers_), place_(all_->insert(all_->end(), {OpenSocket(socket)})) {
     const auto oldest = std::ranges::find_if(*all_, [](const Stranger& s) { return !s.is_leaving; });
     if (all_->size() <= sessions.limits_.strangers) return;
     oldest->is_leaving = true;
-    ::shutdown(oldest->socket, SHUT_RDWR);
+    oldest->socket.shut_down();
   }
   ~Visit() { end(); }
   Visit(const Visit&) = delete;

@@ -11,6 +11,7 @@
 #include "common/net/backoff.h"
 #include "common/net/connection.h"
 #include "common/net/dial.h"
+#include "common/net/open_socket.h"
 #include "common/net/stranger_log.h"
 #include "master/access/access.h"
 #include "master/dialling.h"
@@ -60,7 +61,7 @@ class Sessions {
   struct Session;
   struct Dialled;
   struct Stranger {
-    int socket;
+    OpenSocket socket;
     bool is_leaving = false;
   };
   class Visit;

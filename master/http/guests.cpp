@@ -1,7 +1,5 @@
 #include "master/http/guests.h"
 
-#include <sys/socket.h>
-
 #include <algorithm>
 #include <map>
 #include <string_view>
@@ -10,14 +8,14 @@ namespace rayfarm {
 
 bool Guests::send_away_one() {
   std::map<std::string_view, std::size_t> held;
+  std::size_t most = 0;
   for (const Guest& guest : all_)
-    if (!guest.is_leaving) ++held[guest.who];
-  if (held.empty()) return false;
-  const auto most = std::ranges::max_element(held, {}, [](const auto& of_one) { return of_one.second; });
-  const auto oldest = std::ranges::find_if(
-      all_, [&](const Guest& guest) { return !guest.is_leaving && guest.who == most->first; });
+    if (!guest.is_leaving) most = std::max(most, ++held[guest.who]);
+  const auto oldest =
+      std::ranges::find_if(all_, [&](const Guest& g) { return !g.is_leaving && held[g.who] == most; });
+  if (oldest == all_.end()) return false;
   oldest->is_leaving = true;
-  ::shutdown(oldest->socket, SHUT_RDWR);
+  oldest->socket.shut_down();
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <list>
 #include <string>
 
+#include "common/net/open_socket.h"
 #include "master/http/http_stream.h"
 
 namespace rayfarm {
@@ -23,7 +24,7 @@ class IdleTime {
 };
 
 struct Guest {
-  int socket = -1;
+  OpenSocket socket;
   std::string who{};        // what they showed, or their address; empty: nobody yet
   bool is_leaving = false;  // it was told to, and will be gone soon
 };
@@ -35,7 +36,7 @@ class Guests {
   class Stay {
    public:
     Stay(Guests& guests, int socket)
-        : guests_(guests), place_(guests.all_.insert(guests.all_.end(), {socket})) {}
+        : guests_(guests), place_(guests.all_.insert(guests.all_.end(), {OpenSocket(socket)})) {}
     ~Stay() { guests_.all_.erase(place_); }
     Stay(const Stay&) = delete;
     Stay& operator=(const Stay&) = delete;
