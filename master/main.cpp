@@ -205,9 +205,7 @@ int serve(const Arguments& arguments) {
         });
       },
       farm_address(sessions.listening_at()),
-      [&](const std::string& line) { asio::post(io, [&farm, line] {
-                                       farm.note({false, line, ""});
-                                     }); },
+      [](const std::string& line) { spdlog::info("{}", line); },
   };
   const AppFiles app;
   const SceneLibrary scenes;

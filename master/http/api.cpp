@@ -74,7 +74,7 @@ ApiResponse routed(const ApiRequest& request, const Doors& doors) {
   if (match.route) {
     if (is_evaluation(match.route->work) && request.has_left && request.has_left())
       throw ApiError(400, "you have left");
-    expect_still_allowed(request);
+    if (std::optional<ApiResponse> denial = denial_now(request)) return std::move(*denial);
     expect_known(target.query, parse_target(match.route->path).query);
     return match.route->handle({request, doors, std::move(match.arguments), std::move(target.query)});
   }

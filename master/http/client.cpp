@@ -75,8 +75,8 @@ void expect_trusted(HttpStream::Tls& tls, const HttpRequest& asked, bool is_know
   try {
     authority_behind(*tls.native_handle(), parse_token(asked.token).farm);
   } catch (const std::runtime_error& error) {
-    throw MasterUntrusted("the master at " + asked.url +
-                          " is not the one that your token is for: " + error.what());
+    throw MasterUntrusted("the master at " + asked.url + " is not the one that your token is for (" +
+                          error.what() + "), or has a certificate of its own: ask for the name in that");
   }
 }
 
@@ -168,8 +168,11 @@ HttpReply send(const HttpRequest& request) {
       throw MasterUnreachable("who is at " + request.url +
                               " answers nothing: a master that encrypts wants https://");
     const bool encrypts_unasked = peer.is_encrypted && request.url.starts_with("http://");
-    throw MasterUnreachable("no master answers at " + request.url + " (" + error.code().message() +
-                            (encrypts_unasked ? "; with a token it is asked over TLS alone)" : ")"));
+    throw MasterUnreachable(
+        "no master answers at " + request.url + " (" + error.code().message() +
+        (encrypts_unasked
+             ? "; with a token it is asked over TLS alone: without RAYFARM_TOKEN_FILE also in plaintext)"
+             : ")"));
   }
   return std::move(*reply);
 }

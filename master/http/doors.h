@@ -32,7 +32,7 @@ struct MasterDoor {
   /// Whom we refuse, for the log, which has room for so many; from any thread.
   std::function<void(const std::string& line)> tell;
   std::string farm_address{};  // HOST:PORT where workers of other PCs come
-  /// What was done, for the log; from any thread.
+  /// What was done, for the log that only the PC's admins read; from any thread.
   std::function<void(const std::string& line)> note = [](const std::string&) {};
 };
 

@@ -63,7 +63,7 @@ ApiResponse submit_job(const Call& call) {
   SubmittedJob job = body.contains("scene_of")
                          ? SubmittedJob{job_like_another(body, call.doors.farm), {}}
                          : submitted_job(body, call.doors.scenes, call.doors.assets, call.request.has_left);
-  expect_still_allowed(call.request);  // the script may have taken its time
+  if (auto denial = denial_now(call.request)) return std::move(*denial);  // the script took its time
   const std::optional<FrameRange> frames = job.spec.frames;
   if (job.script && frames && frames->count() > 1) job.spec.script = kept_script(*job.script);
   const json submitted = call.doors.farm.ask([spec = std::move(job.spec)](Farm& farm, FarmTime now) mutable {

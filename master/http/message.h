@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,20 +42,6 @@ class Body {
   std::string_view bytes_;
 };
 
-struct ApiRequest {
-  std::string method, target;
-  std::string host, origin, fetch_site, content_type;  // header fields; empty: not there
-  std::string body;
-  std::function<bool()> has_left{};  // whether the asker waits no longer; none: it does
-
-  std::string authorization{}, cookie{};  // header fields
-  std::string from{};                     // numeric address of the other end
-  std::string our_url{};                  // under which other PCs find the master
-  bool is_encrypted = false;
-  bool is_forwarded = false;          // somebody else asks through a proxy, which says so
-  std::function<bool()> may_still{};  // whether the asker still may what they were let in for; none: they do
-};
-
 /// How long a browser may keep an answer.
 enum class Caching : std::uint8_t { never, ask_again, for_ever };
 
@@ -65,6 +52,27 @@ struct ApiResponse {
   Caching caching = Caching::never;
   std::string cookie{};  // to be set; empty: none
 };
+
+struct ApiRequest {
+  std::string method, target;
+  std::string host, origin, fetch_site, content_type;  // header fields; empty: not there
+  std::string body;
+  std::function<bool()> has_left{};  // whether the asker waits no longer; none: it does
+
+  std::string authorization{}, cookie{};  // header fields
+  std::string from{};                     // numeric address of the other end
+  std::string our_url{};                  // under which other PCs find the master
+  bool is_encrypted = false;
+  bool is_forwarded = false;  // somebody else asks through a proxy, which says so
+
+  /// What the asker gets instead when they may no longer what they were let in for; none: they may.
+  std::function<std::optional<ApiResponse>()> denial{};
+};
+
+/// Requests may wait long for their turn.
+inline std::optional<ApiResponse> denial_now(const ApiRequest& request) {
+  return request.denial ? request.denial() : std::nullopt;
+}
 
 ApiResponse error_response(unsigned status, const std::string& message);
 

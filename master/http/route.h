@@ -43,11 +43,6 @@ struct Call {
   std::map<std::string, std::string> query;  // decoded
 };
 
-/// Throws ApiError when who was let in has lost the right meanwhile: requests may wait long for their turn.
-inline void expect_still_allowed(const ApiRequest& request) {
-  if (request.may_still && !request.may_still()) throw ApiError(401, "your token is no longer good");
-}
-
 constexpr std::uint64_t command_limit = 64 * 1024;  // bytes of a body
 
 /// A handler runs on a thread of its kind of work. It may throw ApiError and what the rooms that it calls

@@ -18,6 +18,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <thread>
 
+#include "common/net/text.h"
 #include "common/net/tls.h"
 #include "master/http/api.h"
 #include "master/http/guard.h"
@@ -97,6 +98,7 @@ struct HttpServer::Parts {
   asio::awaitable<bool> has_come(NewsWait wait);
   asio::thread_pool& threads_for(Work work) { return threads[static_cast<std::size_t>(work)]; }
 
+  std::optional<Asker> let_in(const ApiRequest& request, std::optional<ApiResponse>& refused) const;
   /// Whether who showed this may still look.
   bool may_look(const std::string& shown, const std::string& from) const;
 
@@ -182,6 +184,20 @@ bool HttpServer::Parts::may_look(const std::string& shown, const std::string& fr
   }
 }
 
+/// Who asks, if somebody must be known; else what they get instead of an answer goes into `refused`. From any thread.
+std::optional<Asker> HttpServer::Parts::let_in(const ApiRequest& request,
+                                               std::optional<ApiResponse>& refused) const {
+  const std::optional<Role> needed = role_needed(request);
+  if (!needed) return std::nullopt;
+  std::optional<Asker> asker = asker_of(request, settings.exposure, doors.access, doors.master.tell);
+  refused = denial(asker, *needed);
+  const bool is_short = request.target.size() <= 100 && is_plain_text(request.target);
+  if (refused && asker)
+    doors.master.tell("who is " + std::string(name_of(asker->role)) + " at " + request.from + " may not " +
+                      request.method + " " + (is_short ? request.target : "what they ask for"));
+  return asker;
+}
+
 /// Reads and forgets what the peer still sends, for a while: closing at once would reset the connection, and
 /// the answer could be lost on its way.
 asio::awaitable<void> HttpServer::Parts::see_off(HttpStream& stream) {
@@ -217,18 +233,12 @@ asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::fla
   if (refused && refused->status == 403)
     doors.master.tell("nobody at " + request.from + ": a page from elsewhere, or for another name, asks");
   if (error && !refused) co_return Then::farewell;
-  std::optional<Asker> asker;
-  const auto denied = [&]() -> std::optional<ApiResponse> {
-    const std::optional<Role> needed = role_needed(request);
-    if (!needed) return std::nullopt;
-    asker = asker_of(request, settings.exposure, doors.access, doors.master.tell);
-    std::optional<ApiResponse> denial_now = denial(asker, *needed);
-    if (denial_now && asker)
-      doors.master.tell("who is " + std::string(name_of(asker->role)) + " at " + request.from + " may not " +
-                        request.method + " " + request.target);
-    return denial_now;
+  const std::optional<Asker> asker = refused ? std::nullopt : let_in(request, refused);
+  request.denial = [this, &request] {
+    std::optional<ApiResponse> denied;
+    let_in(request, denied);
+    return denied;
   };
-  if (!refused) refused = denied();
   if (asker) guest.who = asker->shown.empty() ? request.from : asker->shown;
   std::optional<IdleTime> yielding;  // who is nobody makes room for others until the answer is theirs
   if (!asker) yielding.emplace(idle, stream);
@@ -245,7 +255,7 @@ asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::fla
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
     if (error) refused = complaint(error, limit);
     if (error && !refused) co_return Then::farewell;
-    if (!refused) refused = denied();  // the token may have been revoked while the body came
+    if (!refused) refused = request.denial();  // the token may have been revoked while the body came
   }
   if (refused) co_return co_await reply(stream, std::move(*refused), parser.get(), false);
   if (is_live(parser.get())) {
@@ -258,12 +268,10 @@ asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::fla
   }
 
   request.body = std::move(parser.get().body());
-  if (asker)
-    request.may_still = [this, shown = asker->shown, from = request.from] { return may_look(shown, from); };
   request.has_left = [socket = stream.next_layer().socket().native_handle()] { return has_left(socket); };
   ApiResponse answered = co_await respond(request);
   if (request.method == "GET")  // nor does who was let in then see what there is now
-    if (std::optional<ApiResponse> denial = denied()) answered = std::move(*denial);
+    if (std::optional<ApiResponse> denial = request.denial()) answered = std::move(*denial);
   co_return co_await reply(stream, std::move(answered), parser.get(), parser.get().keep_alive());
 }
 

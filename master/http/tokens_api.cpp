@@ -113,8 +113,8 @@ ApiResponse make_token(const Call& call) {
   answer["token"] = text_of(issued.token);
   answer["authority"] = access.fingerprint();
   if (wish.kind == CredentialKind::pairing_code) answer["master"] = call.doors.master.farm_address;
-  if (wish.kind ==
-      CredentialKind::login_link)  // after #, so that it stands in no server's log and nobody fetches it
+  // After #, so that it stands in no server's log and nobody fetches it.
+  if (wish.kind == CredentialKind::login_link)
     answer["link"] = call.request.our_url + "/#/login/" + text_of(issued.token);
   return {201, "application/json", answer.dump()};
 }
