@@ -17,7 +17,7 @@
 namespace rayfarm {
 namespace {
 
-constexpr std::size_t rounds = 5, variants = 6;
+constexpr std::size_t rounds = 15, variants = 6;
 const std::function<bool()> never = [] { return false; };
 
 /// Of this process, in the kernel too: a cloud's file is written.
@@ -51,7 +51,7 @@ std::vector<const MapKind*> kinds_with(const std::function<bool(const MapKind&)>
 
 void measure(const std::string& scene, std::uint32_t spp) {
   const World world(evaluate_file(RAYFARM_SOURCE_DIR "/scenes/" + scene + ".lua", {}, 0).scene);
-  const RenderSettings settings{.width = 640, .height = 320, .spp = spp};
+  const RenderSettings settings{.width = 320, .height = 192, .spp = spp};
   const std::vector<std::uint32_t> order = centre_first({settings.width, settings.height});
   std::vector<std::array<std::array<double, rounds>, variants>> seconds(order.size());
   for (std::size_t round = 0; round < rounds; ++round) {
