@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <future>
+#include <thread>
 
 #include "tests/support/scratch_folder.h"
 
@@ -85,6 +87,24 @@ TEST_F(TheAccess, GivesAWorkerTheCertificateThatItsCodeIsGoodFor) {
   EXPECT_EQ(facts_of(certificate).name, "lab7");
   EXPECT_NO_THROW(pair(code));
   EXPECT_THROW(pair(code), AccessRefused);
+}
+
+TEST_F(TheAccess, GivesAsManyCertificatesAsItsCodeHasUsesHoweverManyAskAtOnce) {
+  const Token code = access.issue({.uses = 5}, now).token;
+  std::atomic<int> paired = 0, refused = 0;
+  {
+    std::vector<std::jthread> pcs;
+    for (int i = 0; i < 12; ++i)
+      pcs.emplace_back([&, i] {
+        try {
+          pair(code, "10.0.0." + std::to_string(i)), ++paired;
+        } catch (const AccessRefused&) {
+          ++refused;
+        }
+      });
+  }
+  EXPECT_EQ(paired, 5);
+  EXPECT_EQ(refused, 7);
 }
 
 TEST_F(TheAccess, LosesNoUseOfACodeToARequestThatIsNone) {

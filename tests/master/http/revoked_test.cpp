@@ -107,5 +107,18 @@ TEST_F(People, WhoWatchAreCutOffAtOnceWhenTheirTokenIsRevoked) {
   peer.rest();  // comes to an end
 }
 
+TEST_F(People, WhoWatchAreCutOffWhenTheirTokenExpires) {
+  const TestServer server(door_to(farm), settings(Exposure::loopback_only), master(), &access);
+  const Issued viewer =
+      access.issue({.kind = CredentialKind::token, .role = Role::viewer, .lifetime = std::chrono::seconds(2)},
+                   std::chrono::system_clock::now());
+  RawPeer peer(server.port());
+  peer.send(live_request(text_of(viewer.token)));
+  EXPECT_TRUE(peer.some().starts_with("HTTP/1.1 101"));
+  peer.rest();  // comes to an end
+  EXPECT_GE(std::chrono::system_clock::now() + std::chrono::seconds(1), viewer.credential.until)
+      << "whole seconds";
+}
+
 }  // namespace
 }  // namespace rayfarm
