@@ -15,8 +15,14 @@ namespace rayfarm {
 namespace {
 
 constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
+constexpr auto patience = std::chrono::seconds(1);         // with a disk that had a fault
 constexpr std::uintmax_t large_log = 4u << 20;             // bytes: then it is moved into the file
 constexpr std::uintmax_t huge_log = 16u << 20;             // bytes: then writers wait until it is empty
+
+/// The disk says so once: a file that could not be synced counts as synced the next time.
+struct WriteLost : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 std::filesystem::path log_of(const std::filesystem::path& journal) { return journal.string() + "-wal"; }
 
@@ -24,10 +30,11 @@ std::filesystem::path log_of(const std::filesystem::path& journal) { return jour
 void sync_file(const std::filesystem::path& file) {
   const int opened = open(file.c_str(), O_RDWR | O_CLOEXEC);
   if (opened < 0 && errno == ENOENT) return;
-  const bool is_synced = opened >= 0 && fdatasync(opened) == 0;
+  if (opened < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
+  const bool is_synced = fdatasync(opened) == 0;
   const int error = errno;
-  if (opened >= 0) close(opened);
-  if (!is_synced) throw std::runtime_error(file.string() + ": " + std::strerror(error));
+  close(opened);
+  if (!is_synced) throw WriteLost(file.string() + ": " + std::strerror(error));
 }
 
 std::filesystem::path mark_of(const std::filesystem::path& journal) { return journal.string() + "-mark"; }
@@ -78,9 +85,14 @@ void WalSync::wake(std::int64_t writes) {
 }
 
 std::optional<std::string> WalSync::take_fault() {
-  const std::lock_guard lock(mutex_);
-  is_told_ = is_told_ || fault_;
-  return std::exchange(fault_, std::nullopt);
+  std::unique_lock lock(mutex_);
+  if (loss_) return std::exchange(loss_, std::nullopt);
+  if (!fault_) return std::nullopt;
+  is_asked_ = true;
+  news_.notify_one();
+  ended_.wait_for(lock, patience, [this] { return !is_asked_ || !fault_; });
+  is_asked_ = false;
+  return fault_;
 }
 
 void WalSync::work() {
@@ -88,23 +100,31 @@ void WalSync::work() {
   while (true) {
     news_.wait(lock, [this] { return writes_ != synced_ || is_ending_; });
     const bool was_last = is_ending_;
-    if (synced_ != writes_) {
-      const std::int64_t writes = writes_;
-      lock.unlock();
-      try {
-        sync(writes);
-        lock.lock();
-        synced_ = writes;
-        if (std::exchange(is_told_, false))
-          fault_.reset();                      // else it stays: a disk tells of a lost write once
-      } catch (const std::exception& error) {  // it is tried again
-        lock.lock();
-        fault_ = error.what();
-      }
-    }
+    if (synced_ != writes_) try_to_sync(lock);
     if (was_last) return;
-    news_.wait_for(lock, interval, [this] { return is_ending_; });
+    news_.wait_for(lock, interval, [this] { return is_ending_ || is_asked_; });
   }
+}
+
+/// What fails is tried again.
+void WalSync::try_to_sync(std::unique_lock<std::mutex>& lock) {
+  const std::int64_t writes = writes_;
+  const bool was_asked = is_asked_;
+  std::optional<std::string> fault, loss;
+  lock.unlock();
+  try {
+    sync(writes);
+  } catch (const WriteLost& error) {
+    fault = loss = error.what();
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  lock.lock();
+  if (!fault) synced_ = writes;
+  if (loss) loss_ = loss;
+  fault_ = fault;
+  if (was_asked) is_asked_ = false;
+  ended_.notify_all();
 }
 
 void WalSync::sync(std::int64_t writes) {

@@ -27,20 +27,22 @@ class WalSync {
 
   /// So many writes were committed; they will be synced within 100 ms, or as soon as the disk allows.
   void wake(std::int64_t writes);
-  /// Why the disk did not take what was committed; told once for each try until it has taken all.
+  /// Why the disk does not take what was committed, by a try that begins now; or why it lost a write, which it says once
+  /// and so do we.
   std::optional<std::string> take_fault();
 
  private:
   void work();
   void sync(std::int64_t writes);
+  void try_to_sync(std::unique_lock<std::mutex>& lock);
 
   const std::filesystem::path journal_;
   std::mutex mutex_;
-  std::condition_variable news_;
+  std::condition_variable news_, ended_;
   std::int64_t writes_ = 0, synced_ = 0;
-  bool is_ending_ = false;
-  std::optional<std::string> fault_;
-  bool is_told_ = false;  // since the disk last took all
+  bool is_ending_ = false, is_asked_ = false;
+  std::optional<std::string> fault_;  // of the last try
+  std::optional<std::string> loss_;   // not told yet
   std::thread thread_;
 };
 
