@@ -36,22 +36,8 @@ bool holds(const Streams& streams, const std::string& words) {
 
 class Encryption : public FarmPrograms {
  protected:
-  /// The test proper; its failures are told, logs with them.
   void run_in_own_network(const std::function<void()>& body) {
-    std::string why_not;
-    const auto run = [&] {
-      try {
-        body();
-      } catch (const std::exception& error) {
-        ADD_FAILURE() << error.what();
-      }
-      kill_all();
-      TearDown();
-      return HasFailure() ? 1 : 0;
-    };
-    const int answer = in_own_network(here, run, why_not);
-    if (answer < 0) GTEST_SKIP() << why_not;
-    EXPECT_EQ(answer, 0) << "see above";
+    run_apart([] { return enter_own_network(here); }, body);
   }
 
   ProgramResult command(const Words& words) const {

@@ -1,7 +1,12 @@
 #include "tests/end_to_end/farm_programs.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <cstring>
 #include <map>
 #include <regex>
 #include <stdexcept>
@@ -28,6 +33,30 @@ void FarmPrograms::TearDown() {
   for (const auto& file : std::filesystem::directory_iterator(folder.path()))
     if (file.path().extension() == ".log")
       ADD_FAILURE() << "--- " << file.path().filename().string() << "\n" << content_of(file.path());
+}
+
+void FarmPrograms::run_apart(const std::function<int()>& enter, const std::function<void()>& body) {
+  constexpr int failed = 1, not_allowed = 100;  // exit codes: from 100 on, it is errno + 100
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const int error = enter();
+    if (error == 0) try {
+        body();
+      } catch (const std::exception& fault) {
+        ADD_FAILURE() << fault.what();
+      }
+    kill_all();
+    TearDown();
+    std::fflush(nullptr);
+    ::_exit(error != 0 ? not_allowed + error : HasFailure() ? failed : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << "what ran apart was killed";
+  const int code = WEXITSTATUS(status);
+  if (code >= not_allowed) GTEST_SKIP() << "no world of its own: " << std::strerror(code - not_allowed);
+  EXPECT_EQ(code, 0) << "see above";
 }
 
 // The daemons. ---------------------------------------------------------------------------------------------

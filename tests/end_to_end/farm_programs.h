@@ -3,6 +3,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -77,6 +78,10 @@ class FarmPrograms : public testing::Test {
   void wait_for_state(const std::string& job, const std::string& state) const;
   /// Something of the job is rendered.
   void wait_for_pixels(const std::string& job) const;
+
+  /// Runs the test proper in a child process once enter() has put that into a world of its own; skips it when the machine
+  /// allows none, as errno says that is returned. Its failures are told, logs with them.
+  void run_apart(const std::function<int()>& enter, const std::function<void()>& body);
 
   ScratchFolder folder;
 

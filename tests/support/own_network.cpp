@@ -9,11 +9,9 @@
 #include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <span>
 #include <stdexcept>
@@ -22,8 +20,6 @@
 namespace rayfarm {
 namespace {
 
-constexpr int not_allowed = 100;  // exit code: 100 + errno
-
 sockaddr inet_address(const std::string& address) {
   sockaddr_in in{};
   in.sin_family = AF_INET;
@@ -31,22 +27,6 @@ sockaddr inet_address(const std::string& address) {
   sockaddr any{};
   std::memcpy(&any, &in, sizeof any);
   return any;
-}
-
-/// errno; 0: done.
-int enter_own_network(const std::string& address) {
-  if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return errno;
-  const int control = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  ifreq loopback{}, alias{};
-  std::strcpy(loopback.ifr_name, "lo");
-  loopback.ifr_flags = IFF_UP | IFF_LOOPBACK | IFF_RUNNING;
-  std::strcpy(alias.ifr_name, "lo:1");
-  alias.ifr_addr = inet_address(address);
-  const bool done =
-      ::ioctl(control, SIOCSIFFLAGS, &loopback) == 0 && ::ioctl(control, SIOCSIFADDR, &alias) == 0;
-  const int fault = done ? 0 : errno;
-  ::close(control);
-  return fault;
 }
 
 struct Segment {
@@ -76,24 +56,19 @@ Segment segment_in(std::span<const char> packet) {
 
 }  // namespace
 
-int in_own_network(const std::string& address, const std::function<int()>& run, std::string& fault) {
-  std::fflush(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    int answer = 0;
-    if (const int error = enter_own_network(address))
-      answer = not_allowed + error;
-    else
-      answer = run();
-    std::fflush(nullptr);
-    ::_exit(answer);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  if (!WIFEXITED(status)) throw std::runtime_error("what ran in its own network was killed");
-  if (WEXITSTATUS(status) < not_allowed) return WEXITSTATUS(status);
-  fault = std::string("no network of its own: ") + std::strerror(WEXITSTATUS(status) - not_allowed);
-  return -1;
+int enter_own_network(const std::string& address) {
+  if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return errno;
+  const int control = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ifreq loopback{}, alias{};
+  std::strcpy(loopback.ifr_name, "lo");
+  loopback.ifr_flags = IFF_UP | IFF_LOOPBACK | IFF_RUNNING;
+  std::strcpy(alias.ifr_name, "lo:1");
+  alias.ifr_addr = inet_address(address);
+  const bool done =
+      ::ioctl(control, SIOCSIFFLAGS, &loopback) == 0 && ::ioctl(control, SIOCSIFADDR, &alias) == 0;
+  const int fault = done ? 0 : errno;
+  ::close(control);
+  return fault;
 }
 
 /// Of IP alone, loopback shows each packet once: where it arrives.

@@ -1,15 +1,13 @@
 // A network without others, and all that is said in it.
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 
 namespace rayfarm {
 
-/// Runs it in a child process that has a network of its own, with loopback and `address`, and returns what that
-/// answered (below 100), or -1 when this machine allows no such network: then `fault` says why.
-int in_own_network(const std::string& address, const std::function<int()>& run, std::string& fault);
+/// This process has a network of its own from now on, with loopback and `address`. errno when this machine allows none.
+int enter_own_network(const std::string& address);
 
 /// All TCP over IPv4 from now on. Throws std::runtime_error.
 class PacketCapture {
