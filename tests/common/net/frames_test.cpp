@@ -14,11 +14,13 @@ using Header = std::span<const std::uint8_t, frame_header_size>;
 
 void decode_whole(ByteView frame, ToWorker& message) {
   if (frame.size() < frame_header_size) throw CodecError("no whole header");
-  message = decode_to_worker(decode_frame_header_to_worker(Header(frame)), frame.subspan(frame_header_size));
+  message = decode_to_worker(decode_frame_header_to_worker(frame.first<frame_header_size>()),
+                             frame.subspan(frame_header_size));
 }
 void decode_whole(ByteView frame, ToMaster& message) {
   if (frame.size() < frame_header_size) throw CodecError("no whole header");
-  message = decode_to_master(decode_frame_header_to_master(Header(frame)), frame.subspan(frame_header_size));
+  message = decode_to_master(decode_frame_header_to_master(frame.first<frame_header_size>()),
+                             frame.subspan(frame_header_size));
 }
 
 /// CodecError is the only way not to be a value.

@@ -13,8 +13,6 @@
 namespace rayfarm {
 namespace {
 
-using Header = std::span<const std::uint8_t, frame_header_size>;
-
 std::filesystem::path file_of(const std::string& name) {
   return std::filesystem::path(RAYFARM_SOURCE_DIR "/tests/common/net/golden") /
          ("protocol_" + std::to_string(protocol_version)) / name;
@@ -82,11 +80,11 @@ const std::map<std::string, ToWorker> to_worker{
 };
 
 ToMaster decoded_to_master(ByteView frame) {
-  return decode_to_master(decode_frame_header_to_master(Header(frame.first<frame_header_size>())),
+  return decode_to_master(decode_frame_header_to_master(frame.first<frame_header_size>()),
                           frame.subspan(frame_header_size));
 }
 ToWorker decoded_to_worker(ByteView frame) {
-  return decode_to_worker(decode_frame_header_to_worker(Header(frame.first<frame_header_size>())),
+  return decode_to_worker(decode_frame_header_to_worker(frame.first<frame_header_size>()),
                           frame.subspan(frame_header_size));
 }
 
