@@ -338,7 +338,8 @@ TEST(Scenes, AnimatedSceneIsTheOriginals) {
 TEST(Scenes, MaterialsToChooseAreTheOriginals) {
   const auto expect_choices = [](const std::string& script, const std::string& fact, const std::string& kind,
                                  std::map<std::string, std::string> params) {
-    for (const auto& [name, values] : facts(fact).at("paramOptions").at("mat").at("values").items()) {
+    const auto materials = facts(fact).at("paramOptions").at("mat").at("values");
+    for (const auto& [name, values] : materials.items()) {
       params["mat"] = name == "absent/other" ? "diffuse" : name;
       EXPECT_EQ(material_of(scene_of(script, params), kind), listed_material(values, 1.6, 1))
           << script << name;
