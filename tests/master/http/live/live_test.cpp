@@ -195,7 +195,7 @@ TEST_F(Live, TwoHundredViewersOfWhomFiftyNeverReadChangeNothing) {
     return farm.submit(std::move(spec), now);
   });
 
-  const std::uint64_t before = resident_memory();
+  [[maybe_unused]] const std::uint64_t before = resident_memory();
   std::list<LiveViewer> silent, readers;
   for (int i = 0; i < 50; ++i) silent.emplace_back(server.port()).say(watching(job).dump());
   for (int i = 0; i < 150; ++i) readers.emplace_back(server.port()).say(watching(job).dump());
@@ -210,7 +210,9 @@ TEST_F(Live, TwoHundredViewersOfWhomFiftyNeverReadChangeNothing) {
   EXPECT_EQ(satisfied, 150);
   EXPECT_TRUE(film(job)->is_complete());
   EXPECT_EQ(film(job)->rgb(), expected.rgb());
+#ifndef RAYFARM_SANITIZED                             // whose notes take as much again
   EXPECT_LT(resident_memory() - before, 300u << 20);  // of the clients, too
+#endif
 }
 
 }  // namespace
