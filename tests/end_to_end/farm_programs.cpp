@@ -168,7 +168,7 @@ std::uint32_t FarmPrograms::leases_of(const std::string& name) const {
 }
 
 FarmPrograms::Deadline::Deadline(std::string what)
-    : what_(std::move(what)), end_(std::chrono::steady_clock::now() + std::chrono::minutes(2)) {}
+    : what_(std::move(what)), end_(std::chrono::steady_clock::now() + test_patience) {}
 
 void FarmPrograms::Deadline::pause() const {
   if (std::chrono::steady_clock::now() > end_) throw std::runtime_error("in vain waited for this: " + what_);

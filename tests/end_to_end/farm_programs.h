@@ -69,7 +69,7 @@ class FarmPrograms : public testing::Test {
   bool is_here(const std::string& name) const;
   std::uint32_t leases_of(const std::string& name) const;
 
-  /// Asks until the answer is yes. Throws after two minutes, saying what was waited for.
+  /// Asks until the answer is yes. Throws after test_patience, saying what was waited for.
   template <class Condition>
   void wait_until(const std::string& what, Condition condition) const {
     for (const Deadline deadline(what); !condition(); deadline.pause()) {}

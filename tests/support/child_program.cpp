@@ -37,7 +37,6 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
 }
 
 using Clock = std::chrono::steady_clock;
-constexpr auto patience = std::chrono::minutes(2);
 
 int milliseconds_until(Clock::time_point deadline) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
@@ -94,7 +93,7 @@ ChildProgram::~ChildProgram() {
 }
 
 std::string ChildProgram::next_line() {
-  const auto deadline = Clock::now() + patience;
+  const auto deadline = Clock::now() + test_patience;
   std::string line;
   pollfd pipe{out_, POLLIN, 0};
   while (::poll(&pipe, 1, milliseconds_until(deadline)) > 0) {
@@ -110,7 +109,7 @@ void ChildProgram::send_signal(int signal) { ::kill(pid_, signal); }
 ProgramResult ChildProgram::result() {
   ProgramResult result;
   pollfd pipes[2]{{out_, POLLIN, 0}, {err_, POLLIN, 0}};
-  const auto deadline = Clock::now() + patience;
+  const auto deadline = Clock::now() + test_patience;
   while (pipes[0].fd >= 0 || pipes[1].fd >= 0) {
     if (::poll(pipes, 2, milliseconds_until(deadline)) == 0) {
       ::kill(pid_, SIGKILL);

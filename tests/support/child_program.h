@@ -2,6 +2,7 @@
 // is killed.
 #pragma once
 #include <sys/types.h>
+#include <chrono>
 
 #include <filesystem>
 #include <map>
@@ -9,6 +10,13 @@
 #include <vector>
 
 namespace rayfarm {
+
+/// How long a test waits for what programs do.
+#ifdef RAYFARM_SANITIZED
+constexpr std::chrono::minutes test_patience{20};
+#else
+constexpr std::chrono::minutes test_patience{2};
+#endif
 
 struct ProgramResult {
   int exit_code = -1;  // 128 + signal when a signal ended it, as a shell says
@@ -27,10 +35,10 @@ class ChildProgram {
   ChildProgram& operator=(const ChildProgram&) = delete;
 
   pid_t pid() const { return pid_; }
-  /// Waits for one line of stdout; empty when it ended without, or none came for two minutes.
+  /// Waits for one line of stdout; empty when it ended without, or none came for test_patience.
   std::string next_line();
   void send_signal(int signal);
-  /// Waits for its end, and ends it itself after two minutes; `out` lacks the lines already taken.
+  /// Waits for its end, and ends it itself after test_patience; `out` lacks the lines already taken.
   ProgramResult result();
 
  private:
