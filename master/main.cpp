@@ -87,7 +87,10 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--state", arguments.state,
                  "A folder for this master alone: its keys, who it lets in, jobs and pictures; they outlive "
                  "the master")
-      ->type_name("FOLDER");
+      ->type_name("FOLDER")
+      ->check([](const std::string& folder) {
+        return std::string(folder.empty() ? "the name of a folder, which must not be empty" : "");
+      });
   app.add_option("--listen", arguments.listen, "Where workers come; port 0: any free one")
       ->type_name("ADDRESS[:PORT]")
       ->capture_default_str();
@@ -199,9 +202,9 @@ int serve(const Arguments& arguments) {
       [&](const std::string& name) { return sessions.stop_dialling(name); },
       [&](const std::set<std::string>& certificates) { sessions.cut_off(certificates); },
       [&](const std::string& line) {
-        asio::post(io, [&farm, &people_refused, line] {
+        asio::post(io, [&people_refused, line] {
           const auto told = people_refused.line_for(line, std::chrono::steady_clock::now());
-          if (told) farm.note({true, *told, ""});
+          if (told) spdlog::warn("{}", *told);  // not for viewers
         });
       },
       farm_address(sessions.listening_at()),

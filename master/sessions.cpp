@@ -24,7 +24,10 @@ DialTarget parse_dial_target(std::string_view text) {
   if (equals == 0 || equals == std::string_view::npos)
     throw AddressError("\"" + std::string(text) +
                        "\" is no worker to dial: write NAME=HOST or NAME=HOST:PORT");
-  return {std::string(text.substr(0, equals)), parse_address(text.substr(equals + 1), default_farm_port)};
+  DialTarget target{std::string(text.substr(0, equals)),
+                    parse_address(text.substr(equals + 1), default_farm_port)};
+  if (target.address.port == 0) throw AddressError("no worker listens at port 0: write the one that it says");
+  return target;
 }
 
 Sessions::Sessions(asio::io_context& io, LiveFarm& farm, const Address& listen, Security security,

@@ -81,6 +81,10 @@ int join_farm(const Arguments& arguments) try {
     throw std::invalid_argument("the code does not say where the master is: say --master HOST[:PORT]");
   const Address master =
       arguments.master.empty() ? *invitation.master : parse_address(arguments.master, default_farm_port);
+  check({arguments.name, cpu_name()});
+  if (arguments.name.size() > max_owner_name)
+    throw std::invalid_argument("a worker's name has at most " + std::to_string(max_owner_name) + " bytes");
+  make_room_for_pairing(arguments.state);
   write_pairing(arguments.state, join(invitation.code, master, arguments.name));
   std::cout << "rayfarm-worker: joined the farm at " << text_of(master) << " as \"" << arguments.name
             << "\"\n";

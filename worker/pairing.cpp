@@ -42,9 +42,17 @@ std::optional<Pairing> read_pairing(const fs::path& state) {
   }
 }
 
+void make_room_for_pairing(const fs::path& state) try {
+  const fs::path trial = state / "pairing.trial";
+  fs::create_directories(state);
+  write_private_file(trial, std::string(8192, ' '));  // more than a pairing takes
+  fs::remove(trial);
+} catch (const std::exception& error) {
+  throw std::runtime_error("the keys could not be kept in " + state.string() + " (" + error.what() +
+                           "), so the code was not used: choose another folder with --state");
+}
+
 void write_pairing(const fs::path& state, const Pairing& pairing) {
-  std::error_code exists;
-  fs::create_directories(state, exists);
   write_private_file(state / file_name, std::string(master_line) + text_of(pairing.master) + "\n" +
                                             pairing.own.key + pairing.own.certificate + pairing.authority);
 }

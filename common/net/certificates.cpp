@@ -145,10 +145,9 @@ std::vector<std::string> hosts_of(const X509* certificate) {
   return hosts;
 }
 
-WallTime end_of(const X509* certificate) {
+WallTime time_of(const ASN1_TIME* written) {
   std::tm time{};
-  expect_done(ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &time) == 1,
-              "the certificate's end is no time");
+  expect_done(ASN1_TIME_to_tm(written, &time) == 1, "the certificate's beginning or end is no time");
   return std::chrono::system_clock::from_time_t(timegm(&time));
 }
 
@@ -221,8 +220,12 @@ std::string issue(const Identity& authority, const std::string& request, const O
 CertificateFacts facts_of(const std::string& certificate) {
   const CertificatePtr parsed = certificate_in(certificate);
   const bool is_master = field_of(parsed.get(), NID_organizationalUnitName) == name_of(PeerRole::master);
-  return {id_of(parsed.get()), is_master ? PeerRole::master : PeerRole::worker,
-          field_of(parsed.get(), NID_commonName), hosts_of(parsed.get()), end_of(parsed.get())};
+  return {id_of(parsed.get()),
+          is_master ? PeerRole::master : PeerRole::worker,
+          field_of(parsed.get(), NID_commonName),
+          hosts_of(parsed.get()),
+          time_of(X509_get0_notBefore(parsed.get())),
+          time_of(X509_get0_notAfter(parsed.get()))};
 }
 
 std::string fingerprint_of(const std::string& certificate) {

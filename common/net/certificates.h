@@ -45,7 +45,7 @@ struct CertificateFacts {
   PeerRole role = PeerRole::worker;
   std::string name;
   std::vector<std::string> hosts;  // sorted
-  WallTime until;
+  WallTime from, until;
 };
 
 /// The blocks of a text, from each -----BEGIN to its -----END; what stands between is left out.

@@ -31,7 +31,14 @@ void write(const std::filesystem::path& file, const Identity& identity) {
 }  // namespace
 
 Identity kept_authority(const std::filesystem::path& file, WallTime now) {
-  if (const std::optional<Identity> kept = read_identity(file)) return *kept;
+  if (const std::optional<Identity> kept = read_identity(file)) {
+    if (facts_of(kept->certificate).from > now)
+      throw CertificateError(
+          file.string() +
+          " was made when the clock of this PC was ahead, or it is behind now: set the clock, "
+          "or remove that file and pair all workers again");
+    return *kept;
+  }
   Identity made = new_authority(now);
   write(file, made);
   return made;
@@ -43,7 +50,7 @@ Identity kept_master(const std::filesystem::path& file, const Identity& authorit
   const auto is_good = [&](const Identity& kept) {
     const CertificateFacts facts = facts_of(kept.certificate);
     return is_signed_by(kept.certificate, authority.certificate) && facts.hosts == hosts &&
-           facts.until > now + master_lifetime / 2;
+           facts.from <= now && facts.until > now + master_lifetime / 2;
   };
   if (const std::optional<Identity> kept = read_identity(file); kept && is_good(*kept)) return *kept;
   const std::string key = new_key();

@@ -31,6 +31,8 @@ struct Fetched {
   std::string output;
   std::uint32_t frame = 0;
   std::uint64_t pixels_done = 0, pixels_total = 0;
+
+  bool is_whole() const { return pixels_done == pixels_total; }
 };
 
 json to_json(const Fetched& f) {
@@ -40,11 +42,14 @@ json to_json(const Fetched& f) {
           {"pixels_total", f.pixels_total}};
 }
 
+/// Writes it if it is whole, or that does not matter: what was done may turn out to be damaged when it is read.
 Fetched fetch_frame(const FetchArguments& a, const json& job, const json& frame, const std::string& file) {
   const Film film = fetch_film(a.id, frame.at("frame"));
-  write_job_picture(file, job, frame, film, a.srgb ? PngCurve::srgb : PngCurve::gamma22);
   const std::uint64_t total = std::uint64_t{film.size().width} * film.size().height;
-  return {file, frame.at("frame"), film.pixels_done(), total};
+  Fetched fetched{file, frame.at("frame"), film.pixels_done(), total};
+  if (a.partial || fetched.is_whole())
+    write_job_picture(file, job, frame, film, a.srgb ? PngCurve::srgb : PngCurve::gamma22);
+  return fetched;
 }
 
 ExitCode fetch_one(const FetchArguments& a, const json& job, const json& frame, const std::string& file) {
@@ -58,6 +63,10 @@ ExitCode fetch_one(const FetchArguments& a, const json& job, const json& frame, 
                            " done; take what is there with --partial");
 
   const Fetched fetched = fetch_frame(a, job, frame, file);
+  if (!fetched.is_whole() && !a.partial)
+    throw CommandError(ExitCode::failed, "job " + std::to_string(a.id) + ": " +
+                                             printable(get_json(job_target(a.id)).at("message")) +
+                                             "; nothing was written; take what is there with --partial");
   if (a.json) {
     json answer = to_json(fetched);
     answer["job"] = a.id;
@@ -65,7 +74,7 @@ ExitCode fetch_one(const FetchArguments& a, const json& job, const json& frame, 
   } else {
     std::printf("%s\n", printable(file).c_str());
   }
-  if (fetched.pixels_done == fetched.pixels_total) return ExitCode::done;
+  if (fetched.is_whole()) return ExitCode::done;
   throw CommandError(ExitCode::partly_done, "only " + percent(fetched.pixels_done, fetched.pixels_total) +
                                                 " of the pixels were there, coarser ones fill the rest");
 }
@@ -80,14 +89,15 @@ ExitCode fetch_all(const FetchArguments& a, const json& job, const json& frames,
     const bool is_wanted = frame.at("state") == "done" || (a.partial && frame.at("pixels_done") > 0);
     if (!is_wanted || !frame.at("is_kept").get<bool>()) continue;
     const Fetched fetched = fetch_frame(a, job, frame, frame_file(pattern, frame.at("frame")));
-    complete += fetched.pixels_done == fetched.pixels_total;
+    if (!fetched.is_whole() && !a.partial) continue;
+    complete += fetched.is_whole();
     written.push_back(to_json(fetched));
     if (!a.json) std::printf("%s\n", printable(fetched.output).c_str());
   }
   if (a.json)
     print_json({{"job", a.id}, {"output", pattern}, {"frames", written}, {"frames_total", frames.size()}});
   if (complete == frames.size()) return ExitCode::done;
-  const std::string message = printable(job.at("message"));
+  const std::string message = printable(get_json(job_target(a.id)).at("message"));
   throw CommandError(ExitCode::partly_done, "only " + std::to_string(complete) + " of " +
                                                 std::to_string(frames.size()) + " frames were there whole" +
                                                 (message.empty() ? "" : "; " + message));

@@ -31,7 +31,14 @@ std::string frames_text(const nlohmann::json& job) {
   return (range.count() == 1 ? "frame " : "frames ") + text_of(range);
 }
 
+void show_pause(ProgressLine& line, const nlohmann::json& job) {
+  if (job.at("state") != "paused") return line.say("");
+  const std::string id = job.at("id").dump(), why = printable(job.at("message"));
+  line.say("job " + id + " is paused" + (why.empty() ? "" : ": " + why) + " (rayfarm resume " + id + ")");
+}
+
 void show(ProgressLine& line, const nlohmann::json& job) {
+  show_pause(line, job);
   const nlohmann::json& frames = job.at("frames");
   std::string details =
       "job " + std::to_string(job.at("id").get<std::uint64_t>()) + " " + job.at("state").get<std::string>();

@@ -6,7 +6,9 @@
 
 namespace rayfarm {
 
+/// How far it is, and when it is paused, why.
 void show(ProgressLine& line, const nlohmann::json& job);
+void show_pause(ProgressLine& line, const nlohmann::json& job);
 double fraction_done(const nlohmann::json& job);
 std::string eta_text(const nlohmann::json& job);  // empty: not known
 /// "frames 0-499:5", "frame 12"

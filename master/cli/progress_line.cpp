@@ -61,4 +61,12 @@ void ProgressLine::show(double fraction, const std::string& details,
   std::fprintf(stderr, "\r%s\033[K", progress_text(fraction, details, eta, terminal_columns()).c_str());
 }
 
+void ProgressLine::say(const std::string& text) {
+  if (text == said_) return;
+  said_ = text;
+  if (text.empty()) return;
+  std::fprintf(stderr, "%s%s\n", drawn_ ? "\r\033[K" : "", text.c_str());
+  drawn_ = false;
+}
+
 }  // namespace rayfarm

@@ -15,11 +15,14 @@ class ProgressLine {
 
   /// fraction: 0..1; details: what is counted, e.g. "412/650 tiles".
   void show(double fraction, const std::string& details, std::optional<std::chrono::seconds> eta);
+  /// A line that stays, unless it is what was said last. Empty: nothing, and what was said may be said again.
+  void say(const std::string& text);
 
  private:
   bool on_terminal_;
   bool drawn_ = false;
   int last_tenth_ = 0;
+  std::string said_;
   std::chrono::steady_clock::time_point last_;
 };
 

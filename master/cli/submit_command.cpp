@@ -72,19 +72,20 @@ JobSpec spec_of(const SubmitArguments& a, const FrameRange& frames, PreparedScen
 class Watch {
  public:
   explicit Watch(const SubmitArguments& a)
-      : stays_(a.watch || a.wait), writer_(a.picture.output, a.picture.curve()) {
-    if (a.watch) line_.emplace();
+      : shows_(a.watch), stays_(a.watch || a.wait), writer_(a.picture.output, a.picture.curve()) {
+    if (stays_) line_.emplace();
   }
   void news(const json& job) {
-    if (line_) show(*line_, job);
-    if (stays_) writer_.write_done(job);
+    if (!stays_) return;
+    if (line_) shows_ ? show(*line_, job) : show_pause(*line_, job);
+    writer_.write_done(job);
   }
   bool stays() const { return stays_; }
   void end() { line_.reset(); }
   std::vector<std::string> files() const { return writer_.files(); }
 
  private:
-  bool stays_;
+  bool shows_, stays_;
   std::optional<ProgressLine> line_;
   FrameWriter writer_;
 };

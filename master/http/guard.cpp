@@ -23,9 +23,13 @@ bool is_address(const std::string& name) {
   return ::inet_pton(AF_INET, name.c_str(), bytes) == 1 || ::inet_pton(AF_INET6, name.c_str(), bytes) == 1;
 }
 
-bool is_loopback_name(const std::string& name) {
-  return name == "localhost" || name == "127.0.0.1" || name == "::1";
+bool is_loopback_address(const std::string& name) {
+  in_addr v4{};
+  return name == "::1" ||
+         (::inet_pton(AF_INET, name.c_str(), &v4) == 1 && ntohl(v4.s_addr) >> 24 == IN_LOOPBACKNET);
 }
+
+bool is_loopback_name(const std::string& name) { return name == "localhost" || is_loopback_address(name); }
 
 /// A name can be made to point anywhere, an address cannot: with more than loopback listened to, any address
 /// will do.
@@ -47,8 +51,8 @@ bool is_json(const std::string& content_type) {
 }  // namespace
 
 bool is_from_this_pc(const ApiRequest& request) {
-  const bool is_near = request.from == "127.0.0.1" || request.from == "::1";
-  return is_near && is_loopback_name(name_in(request.host)) && !request.is_forwarded;
+  return is_loopback_address(request.from) && is_loopback_name(name_in(request.host)) &&
+         !request.is_forwarded;
 }
 
 std::optional<ApiResponse> refusal(const ApiRequest& request, const ListenAddress& listening) {

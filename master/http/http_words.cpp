@@ -16,7 +16,8 @@ bool is_forwarded(const RequestParser::value_type& message) {
 
 ApiRequest api_request(const RequestParser::value_type& message) {
   const auto field = [&](std::string_view name) { return std::string(message[name]); };
-  return {std::string(message.method_string()),
+  const bool is_head = message.method() == http::verb::head;  // as GET, but for the body: RFC 9110, 9.3.2
+  return {is_head ? "GET" : std::string(message.method_string()),
           std::string(message.target()),
           field("Host"),
           field("Origin"),

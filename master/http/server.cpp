@@ -229,7 +229,8 @@ asio::awaitable<Then> HttpServer::Parts::converse(HttpStream& stream, beast::fla
   ApiRequest request = api_request(parser.get());
   request.from = peer_address(stream.next_layer().socket()).to_string(), request.our_url = our_url;
   request.is_encrypted = stream.tls() != nullptr;
-  std::optional<ApiResponse> refused = error ? complaint(error, 0) : refusal(request, listening);
+  std::optional<ApiResponse> refused =
+      error ? complaint(error, submission_limit) : refusal(request, listening);
   if (refused && refused->status == 403)
     doors.master.tell("nobody at " + request.from + ": a page from elsewhere, or for another name, asks");
   if (error && !refused) co_return Then::farewell;
@@ -283,7 +284,9 @@ asio::awaitable<Then> HttpServer::Parts::reply(HttpStream& stream, ApiResponse a
   const MemoryShare share(answer_bytes, answer.body.size() >= large_answer ? answer.body.size() : 0);
   Response response = http_response(answer, request, keep_alive);
   http::response_serializer<http::span_body<const char>> serializer(response);
-  while (!serializer.is_done()) {
+  const bool is_head = request.method() == http::verb::head;  // who wants no body
+  serializer.split(is_head);
+  while (is_head ? !serializer.is_header_done() : !serializer.is_done()) {
     stream.next_layer().expires_after(write_patience);
     co_await http::async_write_some(stream, serializer, asio::use_awaitable);
   }

@@ -90,7 +90,8 @@ CredentialWish wish_in(const json& body) {
   const std::string role_name = body.contains("role") ? text_member(body, "role") : "worker";
   const std::optional<Role> role = role_named(role_name);
   if (!role) throw ApiError(422, "role is worker, viewer, artist or admin, not " + role_name);
-  const bool is_link = body.contains("link") && body["link"] == true;
+  if (body.contains("link") && !body["link"].is_boolean()) throw ApiError(422, "link is true or false");
+  const bool is_link = body.value("link", false);
   if (is_link && role == Role::worker) throw ApiError(422, "a worker has no browser: a link is for people");
   CredentialWish wish;
   wish.kind = is_link                ? CredentialKind::login_link
@@ -99,6 +100,9 @@ CredentialWish wish_in(const json& body) {
   wish.role = *role;
   wish.name = text_member(body, "name");
   wish.uses = static_cast<std::uint32_t>(number_member(body, "uses", 1, most_uses));
+  if (wish.uses != 1 && wish.kind != CredentialKind::pairing_code)
+    throw ApiError(422, is_link ? "a login link is good once: make one for each browser"
+                                : "a token is good until it ends: uses is for the codes of workers");
   wish.lifetime = std::chrono::seconds(number_member(body, "ttl", usual_ttl(wish.kind), longest_ttl));
   return wish;
 }

@@ -1,5 +1,7 @@
 #include "master/journal/database.h"
 
+#include <sqlite3.h>
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -82,6 +84,10 @@ void make_schema(SQLite::Database& database, const std::filesystem::path& file) 
 }
 
 }  // namespace
+
+bool is_damage(const SQLite::Exception& error) {
+  return error.getErrorCode() == SQLITE_CORRUPT || error.getErrorCode() == SQLITE_NOTADB;
+}
 
 Database::Database(const std::filesystem::path& file) try
     : sqlite_(made(file), SQLite::OPEN_READWRITE, journal_patience_ms) {

@@ -13,6 +13,9 @@ namespace rayfarm {
 
 constexpr int journal_patience_ms = 5000;  // with its other connection: one writes, the other syncs
 
+/// The file is no whole journal: no time and no room will help.
+bool is_damage(const SQLite::Exception& error);
+
 /// A statement under way; while it is, others do not see the end of the log.
 struct EndQuery {
   void operator()(SQLite::Statement* statement) const { statement->tryReset(); }

@@ -11,6 +11,9 @@ namespace {
 constexpr std::int64_t spare_pages = 2048;  // 8 MB, and a third of the file, stay to be used again
 constexpr auto give_back_some = "PRAGMA incremental_vacuum(256)";  // pages: 1 MB, a few milliseconds
 constexpr auto what_to_do = "; make room there or mend the disk, then resume the job";
+constexpr auto how_to_begin_anew =
+    "; stop the master and move the journal away to begin with an empty farm, or choose another folder with "
+    "--state";
 
 std::vector<std::int64_t> frames_of(Database& database, JobId job) {
   std::vector<std::int64_t> frames;
@@ -81,7 +84,7 @@ void Journal::write(std::span<const FarmRecord> records) try {
   state_->sync.wake(state_->writes);
 } catch (const SQLite::Exception& error) {
   throw JournalError("the journal " + state_->file.string() + " cannot be written: " + error.what() +
-                     what_to_do);
+                     (is_damage(error) ? how_to_begin_anew : what_to_do));
 }
 
 void Journal::State::write(const JobAdded& added) {

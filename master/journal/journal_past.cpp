@@ -1,5 +1,4 @@
 // Reading.
-#include <sqlite3.h>
 
 #include <algorithm>
 
@@ -158,7 +157,7 @@ SharedBytes Journal::State::read_blob(Opened& opened, const std::string& hash) {
   return blob;
 }
 
-void Journal::State::read_pixels(FrameId id, const std::function<void(const TileCommitted&)>& put) {
+void Journal::State::read_pixels(FrameId id, const std::function<void(const TileCommitted&)>& put) try {
   const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ? ORDER BY id",
                                      number_of(id.job), id.frame);
   while (query->executeStep()) {
@@ -175,11 +174,13 @@ void Journal::State::read_pixels(FrameId id, const std::function<void(const Tile
     } catch (const CodecError&) {
       continue;
     } catch (const SQLite::Exception& error) {
-      if (error.getErrorCode() != SQLITE_CORRUPT) throw;
+      if (!is_damage(error)) throw;
       continue;  // pages of these pixels are damaged
     }
     put(commit);
   }
+} catch (const SQLite::Exception& error) {
+  if (!is_damage(error)) throw;  // else what cannot be read is missing
 }
 
 }  // namespace rayfarm

@@ -80,7 +80,7 @@ TEST_F(Pairing, WithAnotherFarmsCodeTellsTheMasterNothing) {
   const ProgramResult joined = join(elsewhere, "lab1");
   EXPECT_EQ(joined.exit_code, 4) << joined.err;
   EXPECT_NE(joined.err.find("nothing was told to it"), std::string::npos) << joined.err;
-  EXPECT_FALSE(std::filesystem::exists(state_of_pc("lab1")));
+  EXPECT_FALSE(std::filesystem::exists(state_of_pc("lab1") + "/pairing.pem"));
 }
 
 TEST_F(Pairing, TakesACodeFromStandardInputAndNoneWithALetterTooMany) {
@@ -96,6 +96,19 @@ TEST_F(Pairing, TakesACodeFromStandardInputAndNoneWithALetterTooMany) {
                    std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rayfarm-worker",
                    state_of_pc("lab1"), folder / "code"});
   EXPECT_EQ(piped.exit_code, 0) << piped.err;
+}
+
+TEST_F(Pairing, UsesNoCodeUpThatCannotHelp) {
+  start_farm();
+  const std::string code = new_code();
+  for (const std::string& name : {std::string(), std::string("a\nb"), std::string(65, 'x')})
+    EXPECT_EQ(join(code, name).exit_code, 2) << name;
+  put_content(folder / "file", "");
+  const ProgramResult nowhere =
+      run_program({"rayfarm-worker", "join", code, "--name", "lab1", "--state", folder / "file/state"});
+  EXPECT_NE(nowhere.exit_code, 0);
+  EXPECT_NE(nowhere.err.find("choose another folder with --state"), std::string::npos) << nowhere.err;
+  EXPECT_EQ(join(code, "lab1").exit_code, 0);
 }
 
 TEST_F(Pairing, IsWhatAClosedMasterAsksOfEverybody) {

@@ -48,6 +48,20 @@ TEST_F(TheAccess, MakesTheMastersCertificateAnewWhenItIsOldOrThePcHasAnotherName
   EXPECT_TRUE(is_signed_by(later.identity().certificate, access.authority()));
 }
 
+TEST_F(TheAccess, RecoversFromAClockThatWasAhead) {
+  const Access ahead(folder.path(), hosts, now + std::chrono::days(500));
+  EXPECT_GT(facts_of(ahead.identity().certificate).from, now);
+  const Access again(folder.path(), hosts, now);
+  EXPECT_LE(facts_of(again.identity().certificate).from, now);
+  EXPECT_GT(facts_of(again.identity().certificate).until, now);
+  try {
+    Access(folder.path(), hosts, now - std::chrono::days(300));
+    ADD_FAILURE() << "its authority is not valid yet";
+  } catch (const CertificateError& error) {
+    EXPECT_NE(std::string(error.what()).find("set the clock"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(TheAccess, WritesFilesThatOnlyTheirOwnerMayRead) {
   access.issue({}, now);
   int files = 0;

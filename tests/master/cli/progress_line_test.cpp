@@ -19,5 +19,12 @@ TEST(ProgressText, FitsItsTerminalOrLeavesTheBarOut) {
   }
 }
 
+TEST(ProgressLine, SaysAgainWhatIsSoAgain) {
+  ProgressLine line;
+  testing::internal::CaptureStderr();
+  for (const char* text : {"paused", "paused", "", "paused", "paused: full"}) line.say(text);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "paused\npaused\npaused: full\n");
+}
+
 }  // namespace
 }  // namespace rayfarm

@@ -32,6 +32,20 @@ TEST(Guard, BeyondLoopbackAnyAddressAndThePcsOwnNameWillDo) {
     EXPECT_EQ(status_of(get(host), everywhere), 403u) << host;
 }
 
+TEST(Guard, WhoComesOverLoopbackUnderALoopbackNameIsFromThisPc) {
+  const auto is_near = [](const std::string& from, const std::string& host) {
+    ApiRequest request = get(host);
+    request.from = from;
+    return is_from_this_pc(request);
+  };
+  EXPECT_TRUE(is_near("127.0.0.1", "localhost:5412"));
+  EXPECT_TRUE(is_near("127.0.0.2", "127.0.0.2:5412"));
+  EXPECT_TRUE(is_near("::1", "[::1]:5412"));
+  for (const char* host : {"evil.example", "127.0.0.1.evil.example", "192.168.1.7", "127.1"})
+    EXPECT_FALSE(is_near("127.0.0.1", host)) << host;
+  EXPECT_FALSE(is_near("10.0.0.7", "127.0.0.1"));
+}
+
 TEST(Guard, AnOriginMustBeTheMasterItself) {
   ApiRequest request = get("127.0.0.1:5412");
   request.origin = "http://127.0.0.1:5412";

@@ -179,8 +179,10 @@ TEST_F(People, MakeAndRevokeTokensOverTheApi) {
   EXPECT_TRUE(has_line(noted, "token " + id + " (\"Ann\", artist) was revoked at 127.0.0.1"));
   EXPECT_FALSE(has_line(noted, made.at("token").get<std::string>()));
   EXPECT_THROW(access.check_person(made.at("token"), "", now), AccessRefused);
-  for (const char* bad : {R"({"role": "king"})", R"({"uses": 0})", R"({"ttl": -1})", R"({"name": "\u0007"})",
-                          R"({"role": "worker", "link": true})"})
+  for (const char* bad :
+       {R"({"role": "king"})", R"({"uses": 0})", R"({"ttl": -1})", R"({"name": "\u0007"})",
+        R"({"role": "worker", "link": true})", R"({"role": "viewer", "link": "yes"})",
+        R"({"role": "viewer", "link": true, "uses": 2})", R"({"role": "viewer", "uses": 2})"})
     EXPECT_EQ(post("/api/v1/tokens", bad).status, 422u) << bad;
   EXPECT_EQ(post("/api/v1/tokens", R"({"rolle": "king"})").status, 400u);
   EXPECT_EQ(post("/api/v1/tokens/nobody/revoke", "{}").status, 404u);

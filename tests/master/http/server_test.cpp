@@ -53,6 +53,16 @@ TEST_F(Server, AnswersItsClient) {
   EXPECT_EQ(json::parse(reply.body)["api"], 1);
 }
 
+TEST_F(Server, TellsWhoWantsTheHeaderAloneThatOfTheWholeAnswer) {
+  const std::string request = " /api/v1/version HTTP/1.1\r\n" + host;
+  const std::string whole = answer_to("GET" + request + close + "\r\n");
+  const std::string header = whole.substr(0, whole.find("\r\n\r\n") + 4);
+  EXPECT_EQ(answer_to("HEAD" + request + close + "\r\n"), header);
+  const std::string two = answer_to("HEAD" + request + "\r\nGET" + request + close + "\r\n");
+  EXPECT_TRUE(two.ends_with(whole)) << two;
+  EXPECT_EQ(two.find('{'), two.rfind('{')) << "the first one has no body";
+}
+
 TEST_F(Server, AJobGoesInAndItsFilmComesOut) {
   farm.add_renderer("pc1");
   const json job = json::parse(post("/api/v1/jobs", to_json(small_job())).body);

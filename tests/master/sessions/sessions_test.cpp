@@ -389,7 +389,7 @@ TEST(DialTarget, HasANameAndAnAddress) {
   EXPECT_EQ(target.name, "lab7");
   EXPECT_EQ(target.address, (Address{"192.168.1.7", 80}));
   EXPECT_EQ(parse_dial_target("a=b").address.port, default_farm_port);
-  for (const char* text : {"", "lab7", "=host", "lab7=", "lab7=host:x"})
+  for (const char* text : {"", "lab7", "=host", "lab7=", "lab7=host:x", "lab7=host:0"})
     EXPECT_THROW(parse_dial_target(text), AddressError) << text;
 }
 
