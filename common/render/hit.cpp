@@ -145,6 +145,15 @@ Hit hit_at(const World::Parts& w, const RayQuery& q, const Boundary& b) {
   return hit;
 }
 
+Vec3d facet_normal(const World::Parts& w, const Ray& ray, const Hit& hit) {
+  const Leaf& leaf = w.leaves[hit.leaf];
+  if (!leaf.facets) return hit.normal;
+  const FacetCrossing crossing{hit.t, 0, hit.part, hit.leaf_entering};
+  const FacetPoint local = point_at(*leaf.facets, to_local(leaf, RayQuery(ray)), crossing, false);
+  const Vec3d outward = normal_to_world(leaf, local.surface.normal);
+  return hit.leaf_entering == hit.entering ? outward : -outward;
+}
+
 std::uint64_t texture_cells(const World::Parts& w, const Ray& ray, const Hit& hit) {
   const Leaf& leaf = w.leaves[hit.leaf];
   const FacetPoint local = local_surface(leaf, RayQuery(ray), {hit.t, 0, hit.part, hit.leaf_entering});

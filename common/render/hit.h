@@ -24,6 +24,9 @@ struct Hit {
 
 Hit hit_at(const World::Parts& world, const RayQuery& ray, const Boundary& boundary);
 
+/// As Hit::normal, but where that is interpolated, that of the triangle itself. The ray is the one that came.
+Vec3d facet_normal(const World::Parts& world, const Ray& ray, const Hit& hit);
+
 /// A hash of the cells of all textures in which the hit lies.
 std::uint64_t texture_cells(const World::Parts& world, const Ray& ray, const Hit& hit);
 

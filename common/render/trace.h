@@ -181,7 +181,7 @@ class Tracer {
       const double weight = mirror_weight(hit, to_viewer, cos_view);
       if (goes_on(importance * weight)) {
         observer.begin(weight);
-        const Ray next = ray_from(hit, mirrored(to_viewer, hit.normal), hit.entering);
+        const Ray next = ray_from(hit, mirrored_at(hit, ray), hit.entering);
         color += radiance<RayKind::reflected>(next, depth + 1, importance * weight) * weight;
       } else {
         observer.not_traced(RayKind::reflected, weight, NotTraced::importance);
@@ -191,7 +191,7 @@ class Tracer {
       const double weight = material.transmission;
       if (!goes_on(importance * weight)) {
         observer.not_traced(RayKind::refracted, weight, NotTraced::importance);
-      } else if (const std::optional<Vec3d> direction = refracted(to_viewer, hit.normal, hit.index)) {
+      } else if (const std::optional<Vec3d> direction = refracted_at(hit, ray)) {
         observer.begin(weight);
         const Ray next = ray_from(hit, *direction, !hit.entering);
         color += radiance<RayKind::refracted>(next, depth + 1, importance * weight) * weight;
@@ -200,6 +200,22 @@ class Tracer {
       }
     }
     return color;
+  }
+
+  // An interpolated normal may lean over so far that light would go to the wrong side of the triangle. There, the
+  // triangle's own normal counts.
+  Vec3d mirrored_at(const Hit& hit, const Ray& ray) const {
+    const Vec3d direction = mirrored(-ray.direction, hit.normal);
+    if (hit.part == no_part) return direction;
+    const Vec3d facet = facet_normal(state_.world, ray, hit);
+    return (dot(direction, facet) > 0) == hit.entering ? direction : mirrored(-ray.direction, facet);
+  }
+  std::optional<Vec3d> refracted_at(const Hit& hit, const Ray& ray) const {
+    const std::optional<Vec3d> direction = refracted(-ray.direction, hit.normal, hit.index);
+    if (hit.part == no_part || !direction) return direction;
+    const Vec3d facet = facet_normal(state_.world, ray, hit);
+    return (dot(*direction, facet) < 0) == hit.entering ? direction
+                                                        : refracted(-ray.direction, facet, hit.index);
   }
 
   static double mirror_weight(const Hit& hit, const Vec3d& to_viewer, double cos_view) {

@@ -33,10 +33,9 @@ struct CloudArguments {
 };
 
 void check_arguments(const CloudArguments& a) {
-  if (!a.output.ends_with(".ply")) throw FileError("a cloud is a .ply; let -o end in .ply, is " + a.output);
   if (a.voxel && !(*a.voxel > 0 && std::isfinite(*a.voxel)))
     throw SettingsError("--voxel wants a size above 0, in scene units");
-  check_place(a.output);
+  check_cloud_place(a.output);
 }
 
 ExitCode fetch_cloud(const CloudArguments& a) {

@@ -177,7 +177,7 @@ void check_files(const RenderArguments& a) {
   check_place_for_frame("-o", a.picture.output);
   check_place_for_frame("--cloud", a.cloud);
   check_writable(frame_file(a.picture.output, 0));
-  if (!a.cloud.empty()) check_place(frame_file(a.cloud, 0));
+  if (!a.cloud.empty()) check_cloud_place(frame_file(a.cloud, 0));
   aovs_of(a);
   if (!a.video.empty()) check_video(a.picture.output);
   if (!a.video.empty()) check_place(a.video);

@@ -94,6 +94,7 @@ class Writer {
 std::string text_of(const PixelTrace& trace) {
   Writer writer(*trace.leaf_names);
   for (const PixelTrace::Sample& sample : trace.samples) writer.add(sample, trace.pixel);
+  if (trace.samples.empty()) writer.text += "the camera has no ray there\n";
   if (trace.truncated) writer.text += "there are more rays than these\n";
   return std::move(writer.text);
 }

@@ -55,6 +55,12 @@ void check_writable(const std::filesystem::path& file) {
   check_place(file);
 }
 
+void check_cloud_place(const std::filesystem::path& file) {
+  if (file.extension() != ".ply")
+    throw FileError("a cloud is a .ply; let its name end in .ply, is " + file.string());
+  check_place(file);
+}
+
 void check_place(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code error;

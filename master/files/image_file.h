@@ -35,8 +35,9 @@ enum class PngCurve : std::uint8_t { gamma22, srgb };
 
 /// Throws FileError unless a file can be made there. Changes nothing.
 void check_place(const std::filesystem::path& file);
-/// The same, and unless the name ends in .exr or .png.
+/// The same, and unless the name ends in .exr or .png; in .ply.
 void check_writable(const std::filesystem::path& file);
+void check_cloud_place(const std::filesystem::path& file);
 void write_picture(const std::filesystem::path& file, const Picture& picture,
                    PngCurve curve = PngCurve::gamma22);
 /// The bytes of a file, for those who send it.

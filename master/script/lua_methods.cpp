@@ -1,6 +1,7 @@
 // The methods of nodes. Each gives a changed copy: nodes are values. First written, first applied.
 #include <cmath>
 
+#include "common/net/text.h"
 #include "master/script/lua_nodes.h"
 #include "master/script/node_value.h"
 #include "master/script/suggestion.h"
@@ -151,6 +152,8 @@ int set_name(lua_State* L) {
   check_count(L, 1, "name", "one string");
   if (lua_type(L, 2) != LUA_TSTRING) throw SceneError("name: must be a string, is " + description(L, 2));
   if (lua_rawlen(L, 2) > 100) throw SceneError("name: must have at most 100 characters");
+  if (!is_plain_text({lua_tostring(L, 2), lua_rawlen(L, 2)}))
+    throw SceneError("name: must be one line of UTF-8 without control characters");
   push_with(L, Companion::name, 2);
   return 1;
 }

@@ -134,6 +134,8 @@ std::uint32_t index_of(int index) {
 }  // namespace
 
 PolygonMesh read_obj(const std::string& name, std::string_view bytes) {
+  if (constexpr std::string_view mark = "\xEF\xBB\xBF"; bytes.starts_with(mark))
+    bytes.remove_prefix(mark.size());
   ObjCheck(name).look_through(bytes);
   ViewBuffer buffer(bytes);
   std::istream stream(&buffer);

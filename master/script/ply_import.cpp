@@ -303,6 +303,8 @@ void read_faces(const Element& element, PlySource& source, PolygonMesh& mesh) {
   };
   if (element.count > 0 && std::ranges::none_of(element.properties, is_corners))
     source.fail("a face needs the property list vertex_indices");
+  if (element.count > 0 && mesh.points.empty())
+    source.fail("the faces come before the vertices: write element vertex first");
   for (std::uint64_t i = 0; i < element.count; ++i)
     for (const Property& p : element.properties) {
       if (is_corners(p))

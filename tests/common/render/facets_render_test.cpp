@@ -83,6 +83,26 @@ TEST(FacetsRender, NoRayIsLostWhereShadingNormalsLeanOver) {
   EXPECT_EQ(rendered(scene).counters.lost, 0u);
 }
 
+/// A box of mirrors with the normals of a ball, and a ring through it.
+TEST(FacetsRender, NoRayIsLostInsideOtherSolidsWhereShadingNormalsLeanOver) {
+  Scene scene;
+  scene.assets = {asset_with(cube_mesh())};
+  scene.materials.push_back({{0.2, 0.2, 0.9}, 0.1, 0.3, 0.6, 16, 0, 1, 0});
+  scene.materials.push_back({{0.9, 0.9, 0.9}, 0.1, 0.1, 0.4, 16, 0.4, 1.5, 0});
+  const Affine turned = rotation_deg(0, 30) * rotation_deg(1, 50) * translation({-0.5, -0.5, -0.5});
+  scene.nodes = {node_with(Operation{CsgOp::unite, 2}), node_with(Solid{Mesh{0, true}}, turned),
+                 node_with(Solid{Torus{0.5, 0.2}}, translation({0, 0, 0}))};
+  scene.camera = PerspectiveCamera{{0, 0, -3}, {0, 0, 1}, {0, 1, 0}, 40};
+  scene.lights = {AmbientLight{glm::dvec3(0.5)}, PointLight{{3, 4, -5}, glm::dvec3(0.5)}};
+  for (const std::uint32_t material : {0u, 1u}) {
+    scene.nodes[0].material = material;
+    check(scene);
+    const Rendered all = rendered(scene);
+    EXPECT_EQ(all.counters.lost, 0u) << material;
+    EXPECT_GT(all.counters.reflected, 1000u) << material;
+  }
+}
+
 TEST(FacetsRender, ASheetInAUnionShowsBothSidesAndLosesNoRay) {
   Scene scene;
   scene.assets = {asset_with(hill_grid())};

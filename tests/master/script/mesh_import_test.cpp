@@ -107,6 +107,11 @@ TEST(MeshImport, NormalsAndTextureCoordinatesBelongToCorners) {
   EXPECT_EQ(mesh.texture_at, (std::vector<IndexTriple>{{0, 1, 0}}));
 }
 
+TEST(MeshImport, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(complaint("a.obj", "\xEF\xBB\xBF" + points), "");
+}
+
 TEST(MeshImport, ABrokenObjSaysWhere) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_EQ(complaint("a.obj", "v 0 0\n"), "a.obj:1: a point needs 3 numbers, has 2");
@@ -129,6 +134,13 @@ TEST(MeshImport, ABrokenPlySaysWhere) {
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
   EXPECT_EQ(complaint("a.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "");
+  EXPECT_NE(
+      complaint("a.ply",
+                "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement "
+                "vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n0 0 "
+                "0\n1 0 0\n0 1 0\n")
+          .find("write element vertex first"),
+      std::string::npos);
   EXPECT_EQ(complaint("a.ply", head + "0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n"),
             "a.ply:12: a vertex has a number that is not finite");
   EXPECT_EQ(complaint("a.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
