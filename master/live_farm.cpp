@@ -81,13 +81,25 @@ void LiveFarm::keep() {
       if (tried_ == 0) note({true, *fault, {}});
       pause_all(*fault);
       tried_ = unwritten_.size();
+      is_writable_ = false;
     }
   for (const auto& told : std::exchange(waiting_, {})) told(fault);
+}
+
+void LiveFarm::tick() {
+  apply([](Farm& farm, FarmTime now) { farm.tick(now); });
+  if (journal_ && is_writable_) try {
+      journal_->tidy();
+    } catch (const JournalError& error) {
+      note({true, error.what(), {}});
+      is_writable_ = false;
+    }
 }
 
 void LiveFarm::write() {
   journal_->write(unwritten_);
   unwritten_.clear();
+  is_writable_ = true;
   if (std::exchange(tried_, 0) != 0)
     note({false, "the journal is written again; resume the jobs that are paused", {}});
 }

@@ -41,6 +41,8 @@ class LiveFarm {
   /// Writes to the journal what changed, and returns when it will outlive the process. When that cannot be done, all jobs
   /// are paused and say why; what was not written is kept and tried again when there is more: resuming a job is enough.
   void keep();
+  /// What the farm and its journal do from time to time; called ten times a second.
+  void tick();
   /// Called at the end of the next keep(), with the reason if that failed.
   void once_kept(std::function<void(const std::optional<std::string>& fault)> told) {
     waiting_.push_back(std::move(told));
@@ -66,7 +68,8 @@ class LiveFarm {
   Farm farm_;
   EventLog log_;
   std::vector<FarmRecord> unwritten_;
-  std::size_t tried_ = 0;  // so many of them could not be written
+  std::size_t tried_ = 0;    // so many of them could not be written
+  bool is_writable_ = true;  // no failure since the last write
   std::function<void()> when_changed_ = [] {};
   std::vector<std::function<void(const std::optional<std::string>&)>> waiting_;
 };

@@ -77,7 +77,7 @@ asio::awaitable<void> Sessions::tick() {
   for (;;) {
     timer.expires_after(between_ticks);
     co_await timer.async_wait(asio::use_awaitable);
-    farm_.apply([](Farm& farm, FarmTime now) { farm.tick(now); });
+    farm_.tick();
   }
 }
 

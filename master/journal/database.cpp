@@ -13,7 +13,7 @@
 namespace rayfarm {
 namespace {
 
-constexpr int schema_version = 3;
+constexpr int schema_version = 4;
 
 // jobs      spec and status: rows.h, sealed by the job; is_live: it is being rendered; crashes: in a row
 // frames    what came of a frame (sealed), when it started; dropped: what is known of a picture that is gone (sealed)
@@ -22,6 +22,7 @@ constexpr int schema_version = 3;
 // pixels    those of the commit with the same id, sealed by it
 // workers   names of all that were here, in the order of their coming
 // identities who they are, whatever their names: a row for each name, the last is the latest; the rest is the same in all
+// waste     dropped pictures whose tiles and pixels are still to be deleted
 // facts     is_running; lives: how often it was opened; writes: how many transactions there were
 constexpr auto schema = R"(
 CREATE TABLE facts (name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID;
@@ -44,6 +45,10 @@ constexpr auto identities = R"(
 CREATE TABLE identities (identity TEXT NOT NULL, name TEXT NOT NULL, is_banned INTEGER NOT NULL DEFAULT 0,
                          good_in_a_row INTEGER NOT NULL DEFAULT 0, mismatches INTEGER NOT NULL DEFAULT 0,
                          PRIMARY KEY (identity, name));
+)";
+
+constexpr auto waste = R"(
+CREATE TABLE waste (job INTEGER, frame INTEGER, PRIMARY KEY (job, frame)) WITHOUT ROWID;
 )";
 
 constexpr auto from_version_2 = R"(
@@ -77,7 +82,8 @@ void make_schema(SQLite::Database& database, const std::filesystem::path& file) 
   // Version and tables come in one transaction: there are all of them, or none.
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   if (version == 0) database.exec(schema);
-  database.exec(identities);
+  if (version < 3) database.exec(identities);
+  database.exec(waste);
   if (version == 2) database.exec(from_version_2);
   database.exec("PRAGMA user_version = " + std::to_string(schema_version));
   transaction.commit();

@@ -8,6 +8,7 @@
 namespace rayfarm {
 namespace {
 
+constexpr std::int64_t tiles_tidied = 64;   // at once: a few milliseconds
 constexpr std::int64_t spare_pages = 2048;  // 8 MB, and a third of the file, stay to be used again
 constexpr auto give_back_some = "PRAGMA incremental_vacuum(256)";  // pages: 1 MB, a few milliseconds
 constexpr auto what_to_do = "; make room there or mend the disk, then resume the job";
@@ -70,20 +71,41 @@ void Journal::write(std::span<const FarmRecord> records) try {
   const auto workers = state_->workers;
   const std::int64_t last_tile = state_->last_tile;
   try {
-    SQLite::Transaction transaction(state_->database.sqlite(), SQLite::TransactionBehavior::IMMEDIATE);
-    for (const FarmRecord& record : records)
-      std::visit([this](const auto& fact) { state_->write(fact); }, record.fact);
-    state_->set_fact("writes", state_->writes + 1);
-    state_->give_back_room();
-    transaction.commit();
-    ++state_->writes;
+    state_->in_one([&] {
+      for (const FarmRecord& record : records)
+        std::visit([this](const auto& fact) { state_->write(fact); }, record.fact);
+      // Faster than new ones come, also when there is never nothing else to do.
+      state_->delete_waste(2 * (state_->last_tile - last_tile));
+    });
   } catch (...) {
     state_->workers = workers, state_->last_tile = last_tile;
     throw;
   }
-  state_->sync.wake(state_->writes);
 } catch (const SQLite::Exception& error) {
-  throw JournalError("the journal " + state_->file.string() + " cannot be written: " + error.what() +
+  state_->refuse_to_write(error);
+}
+
+void Journal::tidy() try {
+  if (state_->is_tidy) return;
+  bool was_untidy = true;
+  state_->in_one([&] { was_untidy = state_->delete_waste(tiles_tidied) || state_->give_back_room(); });
+  state_->is_tidy = !was_untidy;
+} catch (const SQLite::Exception& error) {
+  state_->refuse_to_write(error);
+}
+
+void Journal::State::in_one(const std::function<void()>& changes) {
+  SQLite::Transaction transaction(database.sqlite(), SQLite::TransactionBehavior::IMMEDIATE);
+  changes();
+  set_fact("writes", writes + 1);
+  transaction.commit();
+  ++writes;
+  is_tidy = false;
+  sync.wake(writes);
+}
+
+void Journal::State::refuse_to_write(const SQLite::Exception& error) const {
+  throw JournalError("the journal " + file.string() + " cannot be written: " + error.what() +
                      (is_damage(error) ? how_to_begin_anew : what_to_do));
 }
 
@@ -181,11 +203,13 @@ void Journal::State::write(const JobDropped& dropped) {
   films.erase(dropped.id);
 }
 
-void Journal::State::give_back_room() {
-  SQLite::Database& file = database.sqlite();
-  const std::int64_t free = file.execAndGet("PRAGMA freelist_count");
-  if (free <= spare_pages || free * 3 <= file.execAndGet("PRAGMA page_count").getInt64()) return;
-  file.exec(give_back_some);
+bool Journal::State::give_back_room() {
+  SQLite::Database& sqlite = database.sqlite();
+  const std::int64_t free = sqlite.execAndGet("PRAGMA freelist_count");
+  const std::int64_t all = sqlite.execAndGet("PRAGMA page_count");
+  if (free <= spare_pages || free * 3 <= all) return false;
+  sqlite.exec(give_back_some);
+  return sqlite.execAndGet("PRAGMA page_count").getInt64() < all;
 }
 
 void Journal::State::drop_scene(FrameId id) {
@@ -198,9 +222,28 @@ void Journal::State::drop_scene(FrameId id) {
 }
 
 void Journal::State::drop_tiles(FrameId id) {
-  database.run("DELETE FROM pixels WHERE id IN (SELECT id FROM tiles WHERE job = ? AND frame = ?)",
-               number_of(id.job), id.frame);
-  database.run("DELETE FROM tiles WHERE job = ? AND frame = ?", number_of(id.job), id.frame);
+  database.run("INSERT OR IGNORE INTO waste VALUES (?, ?)", number_of(id.job), id.frame);
+}
+
+bool Journal::State::delete_waste(std::int64_t tiles) {
+  bool was_there = false;
+  while (tiles > 0) {
+    const Query oldest = database.query("SELECT job, frame FROM waste LIMIT 1");
+    if (!oldest->executeStep()) break;
+    was_there = true;
+    const std::int64_t job = oldest->getColumn(0), frame = oldest->getColumn(1);
+    database.run(
+        "DELETE FROM pixels WHERE id IN (SELECT id FROM tiles WHERE job = ? AND frame = ? ORDER BY id LIMIT "
+        "?)",
+        job, frame, tiles);
+    database.run(
+        "DELETE FROM tiles WHERE job = ?1 AND frame = ?2 AND id IN "
+        "(SELECT id FROM tiles WHERE job = ?1 AND frame = ?2 ORDER BY id LIMIT ?3)",
+        job, frame, tiles);
+    tiles -= database.sqlite().getChanges();
+    if (tiles-- > 0) database.run("DELETE FROM waste WHERE job = ? AND frame = ?", job, frame);
+  }
+  return was_there;
 }
 
 void Journal::State::write(const WorkerNamed& named) {

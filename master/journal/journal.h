@@ -3,9 +3,9 @@
 // What write() has written survives the end of the process at any instant; what is older than 100 ms also that of the
 // power, as a thread of the journal's own syncs the write-ahead log. Scenes and assets are kept once, by hash; pixels
 // compressed; both, and every row that a picture depends on, with a checksum: what is damaged is left out, never taken
-// for sound. A log that lost its end is noticed, too. What the farm drops is deleted, and its place is used again.
-// Where more than a third of the file is free, each write makes it 1 MB smaller (one that was made before rayfarm did so
-// keeps its size).
+// for sound. A log that lost its end is noticed, too. What the farm drops is deleted bit by bit, as a large
+// picture takes seconds, and its place is used again. Where more than a third of the file is free, it is made smaller
+// (one that was made before rayfarm did so keeps its size).
 //
 // Opening costs a few microseconds a tile: pixels are read when they are needed.
 #pragma once
@@ -45,6 +45,9 @@ class Journal {
 
   /// All of them or, when it throws JournalError, none: to be written again later.
   void write(std::span<const FarmRecord> records);
+  /// A few milliseconds of what is left to do when nothing else is: deleting, making the file smaller. Called ten times a
+  /// second. Throws JournalError.
+  void tidy();
 
  private:
   struct State;

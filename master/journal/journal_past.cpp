@@ -94,6 +94,7 @@ void Journal::State::read_frame(Opened& opened, FrameId id) {
   const bool has_scene = query->getColumn(1).getInt() != 0;
   const bool is_started = !query->getColumn(2).isNull();
   const FarmTime started{query->getColumn(2).getInt64()};
+  const bool is_dropped = !query->getColumn(3).isNull();
   std::optional<PictureDropped> dropped;
   if (const auto sealed = unseal(bytes_of(query->getColumn(3)), key_of(id)))
     dropped = decode_dropped(id, *sealed);
@@ -111,7 +112,7 @@ void Journal::State::read_frame(Opened& opened, FrameId id) {
   if (!is_started) return;
   opened.latest = std::max(opened.latest, started);
   add(opened, FrameStarted{id, started});
-  read_tiles(opened, id);
+  if (!is_dropped) read_tiles(opened, id);
   if (dropped) add(opened, *dropped);
 }
 

@@ -1,6 +1,7 @@
 // What a journal is made of. Only journal's own files include this.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -30,6 +31,7 @@ struct Journal::State {
   std::int64_t writes = 0;       // transactions
   std::int64_t lives = 0;        // this one too
   std::int64_t lost_writes = 0;  // that were synced once, and are gone
+  bool is_tidy = false;          // nothing was left to do, and nothing was written since
   WalSync sync;
 
   /// A crash is counted against those that were live.
@@ -38,6 +40,9 @@ struct Journal::State {
   void set_fact(const char* name, std::int64_t value);
 
   // Writing.
+  /// All of the changes or, when it throws, none.
+  void in_one(const std::function<void()>& changes);
+  [[noreturn]] void refuse_to_write(const SQLite::Exception& error) const;
   void write(const JobAdded& added);
   void write(const FrameAdded& added);
   void write(const FrameStarted& started);
@@ -52,10 +57,12 @@ struct Journal::State {
   void write(const WorkerBanned& banned);
   void write(const WorkerKnown& known);
   void keep_blob(FrameId user, const std::string& hash, const SharedBytes& bytes);
-  /// Some of the file's end, when much of it is free.
-  void give_back_room();
+  /// Some of the file's end, when much of it is free. False: it is not.
+  bool give_back_room();
   void drop_scene(FrameId id);
   void drop_tiles(FrameId id);
+  /// At most so many of those that were dropped, and pictures. False: there are none.
+  bool delete_waste(std::int64_t tiles);
 
   // Reading.
   void read_workers(Opened& opened);

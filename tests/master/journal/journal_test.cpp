@@ -214,6 +214,50 @@ TEST(Journal, GivesRoomBackWhenMuchOfItIsGone) {
   EXPECT_EQ(kept.farm().assets(last).at(0).bytes->size(), std::size_t{16} << 20);
 }
 
+TEST(Journal, DeletesALargePictureBitByBit) {
+  constexpr Size many_tiles{1024, 1024};
+  KeptFarm kept(FarmLimits{.film_bytes = 1});
+  FakeWorker pc(kept.farm(), {.name = "pc"}, 1s);
+  const JobId removed = kept.farm().submit(job_of(many_tiles), 1s);
+  pc.finish_all(1s);
+  kept.write();
+  const JobId dropped = kept.farm().submit(job_of(many_tiles), 2s);
+  pc.finish_all(2s);  // the first one's picture is dropped
+  kept.farm().remove(removed);
+  kept.write();
+  const JobId last = kept.farm().submit(job_of({128, 128}), 3s);
+  pc.finish_all(3s);
+  kept.write();
+  EXPECT_EQ(rows(kept.file(), "tiles"), 256 + 4 - 2 * 4);
+  const JobView before = *kept.farm().job(dropped, 3s);
+
+  kept.crash();
+  EXPECT_TRUE(kept.opened().warnings.empty());
+  EXPECT_FALSE(kept.farm().job(removed, 3s));
+  EXPECT_EQ(kept.farm().film(dropped), nullptr);
+  EXPECT_EQ(kept.farm().job(dropped, 3s)->counters, before.counters);
+  for (const int left : {4 + 248 - 64, 4 + 184 - 64, 4 + 120 - 64, 4, 4}) {
+    kept.keep();
+    EXPECT_EQ(rows(kept.file(), "tiles"), left);
+    EXPECT_EQ(rows(kept.file(), "pixels"), left);
+  }
+  EXPECT_EQ(rows(kept.file(), "waste"), 0);
+  EXPECT_EQ(kept.farm().film(last)->rgb(), made_up_picture(last, {128, 128}));
+}
+
+TEST(Journal, TakesOverOneOfTheThirdVersion) {
+  KeptFarm kept;
+  live(kept.farm());
+  kept.keep();
+  const Farm before = std::move(kept.farm());
+  kept.close();
+  SQLite::Database(kept.file().string(), SQLite::OPEN_READWRITE)
+      .exec("DROP TABLE waste; PRAGMA user_version = 3");
+  kept.open();
+  EXPECT_TRUE(kept.opened().warnings.empty());
+  expect_same(before, kept.farm(), 20s);
+}
+
 TEST(Journal, KnowsWhomToTrustAndWhatWasWasted) {
   KeptFarm kept;
   FakeWorker a(kept.farm(), {.name = "a"}), b(kept.farm(), {.name = "b"});
@@ -242,7 +286,7 @@ TEST(Journal, TakesOverOneOfTheFirstVersion) {
   kept.close();
   {
     SQLite::Database database(kept.file().string(), SQLite::OPEN_READWRITE);
-    database.exec("DROP TABLE identities");
+    database.exec("DROP TABLE waste; DROP TABLE identities");
     database.exec("PRAGMA user_version = 1");
   }
   kept.open();
@@ -257,7 +301,7 @@ TEST(Journal, TakesOverWhomOneOfTheSecondVersionTrusted) {
   kept.close();
   {
     SQLite::Database database(kept.file().string(), SQLite::OPEN_READWRITE);
-    database.exec("DROP TABLE identities");
+    database.exec("DROP TABLE waste; DROP TABLE identities");
     database.exec("ALTER TABLE workers ADD COLUMN good_in_a_row INTEGER NOT NULL DEFAULT 0");
     database.exec("ALTER TABLE workers ADD COLUMN mismatches INTEGER NOT NULL DEFAULT 0");
     database.exec("UPDATE workers SET good_in_a_row = 7, mismatches = 1");

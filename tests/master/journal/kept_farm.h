@@ -22,7 +22,11 @@ class KeptFarm {
   std::filesystem::path file() const { return folder_ / "journal.db"; }
   const Journal::Opened& opened() const { return opened_; }
 
-  void keep() { journal_->write(farm_->take_records()); }
+  void keep() {
+    write();
+    journal_->tidy();
+  }
+  void write() { journal_->write(farm_->take_records()); }
   /// What was not kept is gone. The files are moved as they are: nobody closes them, as when the process is killed.
   void crash(const std::function<void(std::string& log)>& damage = {}) {
     std::filesystem::create_directory(folder_ / "after");

@@ -1,6 +1,7 @@
 // A farm at work with its journal: what it cannot write down stops it, and is not forgotten.
 #include "master/live_farm.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
@@ -89,6 +90,22 @@ TEST_F(LiveFarmTest, WritesAllChangesOfOneTurnAtItsEnd) {
   live.keep();
   render(live, 1);
   EXPECT_EQ(turns, 2);
+}
+
+TEST_F(LiveFarmTest, DeletesWhatWasDroppedFromTickToTick) {
+  LiveFarm live;
+  live.open(journal());
+  const JobId job = live.apply([](Farm& farm, FarmTime now) {
+    return farm.submit(job_of({1024, 1024}), now);
+  });
+  render(live, 256);
+  live.keep();
+  live.apply([&](Farm& farm, FarmTime) { return farm.remove(job); });
+  live.keep();
+  for (const int left : {256, 192, 128, 64, 0}) {
+    EXPECT_EQ(SQLite::Database(journal().string()).execAndGet("SELECT count(*) FROM tiles").getInt(), left);
+    live.tick();
+  }
 }
 
 TEST_F(LiveFarmTest, ForgetsForGoodWhatIsTooOld) {
