@@ -1,6 +1,7 @@
 // rayfarm compare: how far two pictures are apart.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,11 @@ struct CompareArguments {
 
 ExitCode compare(const CompareArguments& arguments) {
   if (!arguments.output.empty()) check_writable(arguments.output);
+  for (const std::string& input : {arguments.a, arguments.b}) {
+    std::error_code is_new;
+    if (std::filesystem::equivalent(arguments.output, input, is_new))
+      throw SettingsError("-o would overwrite " + input + ", which is compared; name another file");
+  }
   const Metric metric = *metric_named(arguments.metric);
   const Difference result = difference(read_linear(arguments.a), read_linear(arguments.b), metric);
   if (!arguments.output.empty()) write_picture(arguments.output, result.picture);

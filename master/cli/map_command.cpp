@@ -13,6 +13,7 @@
 #include "master/diagnostics/map_file.h"
 #include "master/diagnostics/map_picture.h"
 #include "master/files/atomic_write.h"
+#include "master/files/ending.h"
 #include "master/files/image_file.h"
 
 namespace rayfarm {
@@ -27,8 +28,8 @@ struct MapArguments {
   std::string palette = "original";
   std::optional<std::string> range;  // LOW,HIGH
 
-  bool to_csv() const { return output.ends_with(".csv"); }
-  bool to_exr() const { return output.ends_with(".exr"); }
+  bool to_csv() const { return ending_of(output) == ".csv"; }
+  bool to_exr() const { return ending_of(output) == ".exr"; }
 };
 
 std::optional<MapRange> range_of(const MapArguments& a) {
@@ -94,7 +95,7 @@ ExitCode fetch_map(const MapArguments& a) {
 }
 
 ExitCode make_map(const MapArguments& a) {
-  if (!a.to_csv() && !a.to_exr() && !a.output.ends_with(".png"))
+  if (!a.to_csv() && !a.to_exr() && ending_of(a.output) != ".png")
     throw FileError("cannot tell what to write from the name " + a.output +
                     "; let it end in .png, .exr or .csv");
   const MapRequest request = request_of(a);

@@ -18,6 +18,7 @@
 #include "master/cli/text.h"
 #include "master/cli/video.h"
 #include "master/diagnostics/collecting_render.h"
+#include "master/files/ending.h"
 #include "master/files/picture_facts.h"
 #include "master/http/settings_json.h"
 
@@ -103,7 +104,7 @@ std::vector<const MapKind*> aovs_of(const RenderArguments& a) {
     };
     if (kind.source != MapSource::farm && (is(kind.name) || is("all"))) kinds.push_back(&kind);
   }
-  if (!kinds.empty() && !a.picture.output.ends_with(".exr"))
+  if (!kinds.empty() && ending_of(a.picture.output) != ".exr")
     throw SettingsError("--aovs are channels of an .exr; let -o end in .exr");
   return kinds;
 }
@@ -179,8 +180,7 @@ void check_files(const RenderArguments& a) {
   check_writable(frame_file(a.picture.output, 0));
   if (!a.cloud.empty()) check_cloud_place(frame_file(a.cloud, 0));
   aovs_of(a);
-  if (!a.video.empty()) check_video(a.picture.output);
-  if (!a.video.empty()) check_place(a.video);
+  if (!a.video.empty()) check_video(a.video, a.picture.output);
 }
 
 /// Frame after frame, each written when it is done; fewer than all when it was interrupted.

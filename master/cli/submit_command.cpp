@@ -134,8 +134,7 @@ void check_files(const SubmitArguments& a) {
   check_writable(frame_file(a.picture.output, 0));
   if (a.video.empty()) return;
   if (!a.watch && !a.wait) throw SettingsError("--video is made of the pictures here: add --wait or --watch");
-  check_video(a.picture.output);
-  check_place(a.video);
+  check_video(a.video, a.picture.output);
 }
 
 ExitCode submit(const SubmitArguments& a) {

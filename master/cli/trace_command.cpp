@@ -14,6 +14,7 @@
 #include "master/diagnostics/leaf_names.h"
 #include "master/diagnostics/pixel_trace.h"
 #include "master/files/atomic_write.h"
+#include "master/files/ending.h"
 #include "master/files/image_file.h"
 
 namespace rayfarm {
@@ -46,7 +47,7 @@ Pixel pixel_of(const std::string& text) {
 
 void check_svg(const std::string& file) {
   if (file.empty()) return;
-  if (!file.ends_with(".svg"))
+  if (ending_of(file) != ".svg")
     throw FileError("the drawing is an SVG; let the name " + file + " end in .svg");
   check_place(file);
 }

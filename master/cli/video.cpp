@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include <sstream>
 
 #include "common/render/settings.h"
+#include "master/files/ending.h"
 #include "master/files/image_file.h"
 
 extern char** environ;
@@ -23,6 +25,8 @@ namespace rayfarm {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 6> kinds{".mp4", ".mkv", ".mov", ".webm", ".avi", ".gif"};
 
 /// Empty when it is not there.
 std::string program_in_path(const std::string& name) {
@@ -100,11 +104,15 @@ std::string content_of(const std::string& file) {
 
 }  // namespace
 
-void check_video(const std::string& pictures) {
+void check_video(const std::string& file, const std::string& pictures) {
   if (program_in_path("ffmpeg").empty())
     throw SettingsError("--video needs ffmpeg, which is not in the PATH: install it (apt install ffmpeg)");
-  if (!pictures.ends_with(".png"))
+  if (ending_of(pictures) != ".png")
     throw SettingsError("--video is made of .png pictures; let -o end in .png");
+  if (std::ranges::find(kinds, ending_of(file)) == kinds.end())
+    throw SettingsError("--video cannot tell the kind of video from the name " + file +
+                        "; let it end in .mp4, .mkv, .mov, .webm, .avi or .gif");
+  check_place(file);
 }
 
 void write_video(const std::string& file, const std::vector<std::string>& pictures,

@@ -5,8 +5,9 @@
 
 namespace rayfarm {
 
-/// Throws SettingsError when ffmpeg is not in the PATH, or the pictures are none that a video is made of (.png).
-void check_video(const std::string& pictures);
+/// Throws SettingsError when ffmpeg is not in the PATH, the pictures are none that a video is made of (.png), or the file's
+/// name is of no kind of video; FileError when it cannot be written.
+void check_video(const std::string& file, const std::string& pictures);
 /// The kind of video is that of the file's name. What was there before stays until the video is complete. Throws
 /// FileError.
 void write_video(const std::string& file, const std::vector<std::string>& pictures, double frames_per_second);

@@ -10,6 +10,7 @@
 
 #include "common/math/deterministic.h"
 #include "master/files/atomic_write.h"
+#include "master/files/ending.h"
 #include "master/files/image_module.h"
 
 namespace rayfarm {
@@ -18,9 +19,7 @@ namespace {
 enum class FileKind { exr, png };
 
 FileKind kind_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = ending_of(file);
   if (ending == ".exr") return FileKind::exr;
   if (ending == ".png") return FileKind::png;
   throw FileError("cannot tell the kind of picture from the name " + file.string() +
@@ -56,7 +55,7 @@ void check_writable(const std::filesystem::path& file) {
 }
 
 void check_cloud_place(const std::filesystem::path& file) {
-  if (file.extension() != ".ply")
+  if (ending_of(file) != ".ply")
     throw FileError("a cloud is a .ply; let its name end in .ply, is " + file.string());
   check_place(file);
 }

@@ -23,6 +23,8 @@ std::uint64_t last_frame(const Animation& a) {
 
 namespace {
 
+constexpr auto how_to_have_one = "; scene{ animation = { stop = 20, fps = 25 } } would have some";
+
 std::string words_for_missing(const Animation& a, std::uint32_t frame) {
   return "there is no frame " + std::to_string(frame) + ": the animation's last frame is " +
          std::to_string(last_frame(a)) + " (from " + text_of(a.start) + " s to " + text_of(a.stop) + " s, " +
@@ -35,10 +37,16 @@ void check_frame(const Animation& animation, std::uint32_t frame) {
   if (frame > last_frame(animation)) throw SceneError(words_for_missing(animation, frame));
 }
 
+void expect_still(std::uint32_t frame) {
+  if (frame != 0)
+    throw SceneError("there is no frame " + std::to_string(frame) + ": the scene has no animation" +
+                     how_to_have_one);
+}
+
 void expect_frames(const std::string& script, const Scene& scene, const FrameRange& frames) {
   if (!scene.animation)
     throw SceneError(script + ": the scene has no animation, so it has no frames " + text_of(frames) +
-                     "; scene{ animation = { stop = 20, fps = 25 } } would have some");
+                     how_to_have_one);
   if (frames.last > last_frame(*scene.animation))
     throw SceneError(script + ": " + words_for_missing(*scene.animation, frames.last));
 }

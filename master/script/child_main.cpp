@@ -7,6 +7,7 @@
 #include <exception>
 #include <string>
 
+#include "master/files/ending.h"
 #include "master/files/texture_image.h"
 #include "master/script/confine.h"
 #include "master/script/exchange.h"
@@ -30,7 +31,7 @@ void write_all(int fd, std::string_view bytes) {
   }
 }
 
-bool is_mesh(const std::string& file) { return file.ends_with(".obj") || file.ends_with(".ply"); }
+bool is_mesh(const std::string& file) { return ending_of(file) == ".obj" || ending_of(file) == ".ply"; }
 
 /// Before the child is confined, and the script runs.
 bool needs_images(const ScriptFiles& files) {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "common/scene/scene.h"
+#include "master/files/ending.h"
 
 namespace rayfarm {
 namespace {
@@ -43,12 +44,6 @@ void turn(TriangleMesh& mesh) {
   for (Vec3d& n : mesh.normals) n = -n;
 }
 
-bool ends_with(std::string_view name, std::string_view ending) {
-  return name.size() >= ending.size() &&
-         std::ranges::equal(name.substr(name.size() - ending.size()), ending,
-                            [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
-}
-
 }  // namespace
 
 TriangleMesh triangulated(const PolygonMesh& polygons) {
@@ -82,10 +77,11 @@ TriangleMesh triangulated(const PolygonMesh& polygons) {
 }
 
 TriangleMesh read_mesh(const std::string& name, std::string_view bytes) {
+  const std::string ending = ending_of(name);
   PolygonMesh polygons;
-  if (ends_with(name, ".obj"))
+  if (ending == ".obj")
     polygons = read_obj(name, bytes);
-  else if (ends_with(name, ".ply"))
+  else if (ending == ".ply")
     polygons = read_ply(name, bytes);
   else
     throw SceneError(name + ": a mesh is read from a file that ends in .obj or .ply");

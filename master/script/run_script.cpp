@@ -76,7 +76,11 @@ ScriptReply run_script(const ScriptTask& task) {
     if (request.animation) return run_frame(task, *request.animation);
     ScriptReply reply = run_at({request, task.files, 0}, task.limits);
     const auto* result = std::get_if<ScriptResult>(&reply);
-    if (!result || !result->scene.animation) return reply;
+    if (!result) return reply;
+    if (!result->scene.animation) {
+      expect_still(request.frame);
+      return reply;
+    }
     // What the time is only the script can say; where it is not 0, it is evaluated again.
     if (request.frame != 0 || result->scene.animation->start != 0)
       return run_frame(task, *result->scene.animation);

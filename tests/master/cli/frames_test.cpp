@@ -135,6 +135,9 @@ TEST_F(Frames, ThatCannotBeAreRefusedWithWhatThereIs) {
     refused({command, turning, "--frames", "30-40", "-o", files}, "last frame is 20");
     refused({command, turning, "--frame", "21", "-o", files}, "last frame is 20");
     refused({command, still, "--frames", "0-3", "-o", files}, "still.lua: the scene has no animation");
+    refused({command, still, "--frame", "1", "-o", files}, "no frame 1: the scene has no animation");
+    refused({command, turning, "--frames", "0-4", "-o", files, "--video", folder / "turn.foo"},
+            std::string_view(command) == "render" ? "kind of video" : "--wait");
     refused({command, turning, "--frames", "3-1", "-o", files}, "3-1");
     refused({command, turning, "--frames", "a-b", "-o", files}, "--frames wants A-B");
     refused({command, turning, "--frames", "0-4:0", "-o", files}, "step");
@@ -188,7 +191,12 @@ TEST_F(Frames, BecomeAVideoByFfmpeg) {
 
 /// What the real one makes of it, seen by its companion.
 TEST_F(Frames, AreAsManyInTheVideoThatFfmpegMakes) {
-  for (const auto& [file, rate] : {std::pair{"turn.mp4", "5/1"}, {"turn.webm", "5/1"}}) {
+  for (const auto& [file, rate] : {std::pair{"turn.mp4", "5/1"},
+                                   {"turn.webm", "5/1"},
+                                   {"turn.MKV", "5/1"},
+                                   {"turn.mov", "5/1"},
+                                   {"turn.avi", "5/1"},
+                                   {"turn.gif", "5/1"}}) {
     const ProgramResult made = render("0-8:2", "a.#.png", {"--video", folder / file, "--size", "161x91"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const ProgramResult seen =

@@ -108,6 +108,18 @@ TEST(Compare, PrintsTheMetric) {
   EXPECT_EQ(read_picture(folder / "diff.png").rgb, std::vector<float>(6, 0));
 }
 
+TEST(Compare, DoesNotOverwriteWhatItCompares) {
+  const ScratchFolder folder;
+  for (const char* name : {"a.exr", "b.exr"}) write_picture(folder / name, {{2, 1}, {0, 0, 0, 1, 1, 1}, {}});
+  for (const std::string output : {"a.exr", "b.exr", "./a.exr"}) {
+    const ProgramResult refused =
+        rayfarm({"compare", folder / "a.exr", folder / "b.exr", "-o", folder / output});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("would overwrite"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(read_picture(folder / "a.exr").rgb, (std::vector<float>{0, 0, 0, 1, 1, 1}));
+}
+
 TEST(Compare, WantsTwoPicturesOfOneSize) {
   const ScratchFolder folder;
   write_picture(folder / "a.exr", {{2, 1}, std::vector<float>(6), {}});

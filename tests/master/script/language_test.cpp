@@ -158,10 +158,12 @@ TEST(Language, TimeIsThatOfTheFrame) {
   };
   EXPECT_EQ(x(0), 2);
   EXPECT_EQ(x(6), 3.5);
-  EXPECT_EQ(run("return scene{ root = sphere{}:translate(time, 0, 0) }", {}, 7)
-                .scene.nodes[0]
-                .parent_from_node.offset.x,
-            0);
+}
+
+TEST(Language, ASceneWithoutAnimationHasFrame0Only) {
+  const std::string still = "return scene{ root = sphere{}:translate(time, 0, 0) }";
+  EXPECT_EQ(run(still, {}, 0).scene.nodes[0].parent_from_node.offset.x, 0);
+  EXPECT_THROW(run(still, {}, 1), SceneError);
 }
 
 TEST(Language, AFrameAfterTheAnimationsLastOneIsRefused) {
