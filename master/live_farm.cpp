@@ -90,9 +90,10 @@ void LiveFarm::tick() {
   apply([](Farm& farm, FarmTime now) { farm.tick(now); });
   if (journal_ && is_writable_) try {
       journal_->tidy();
+      untidy_.clear();
     } catch (const JournalError& error) {
-      note({true, error.what(), {}});
       is_writable_ = false;
+      if (std::exchange(untidy_, error.what()) != error.what()) note({true, untidy_, {}});
     }
 }
 

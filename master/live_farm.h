@@ -70,6 +70,7 @@ class LiveFarm {
   std::vector<FarmRecord> unwritten_;
   std::size_t tried_ = 0;    // so many of them could not be written
   bool is_writable_ = true;  // no failure since the last write
+  std::string untidy_;       // what was said last of why nothing can be deleted
   std::function<void()> when_changed_ = [] {};
   std::vector<std::function<void(const std::optional<std::string>&)>> waiting_;
 };

@@ -56,7 +56,7 @@ void Bvh::visit(const Line& line, const double& t_max, Visit&& visit_box) const 
   Waiting stack[max_depth];
   int waiting = 0;
   const BoxSpan whole = test(root_.box);
-  if (whole.entry > whole.exit) return;
+  if (whole.entry > whole.exit || order_.empty()) return;  // a ray of NaN meets all boxes, also none
   const Child* next = &root_;
   while (next) {
     const Child* nearest = nullptr;

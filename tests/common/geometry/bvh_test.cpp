@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "common/geometry/bvh.h"
@@ -34,6 +35,17 @@ TEST(Bvh, VisitsEveryBoxThatTheRayMeets) {
         ASSERT_TRUE(span.entry > span.exit || visited.contains(n));
       }
     }
+  }
+}
+
+TEST(Bvh, WithoutBoxesIsMetByNoRayAlsoNoneOfNan) {
+  const Bvh none(std::span<const Box>{});
+  for (const double x : {0.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    Ray r;
+    r.origin = {x, x, x}, r.direction = {x, x, x};
+    int visited = 0;
+    none.visit(RayQuery(r), infinity, [&](std::uint32_t) { return ++visited > 0; });
+    EXPECT_EQ(visited, 0);
   }
 }
 
