@@ -73,7 +73,7 @@ void Farm::State::relieve_stragglers(FarmTime now) {
   for (const auto& [id, worker] : workers) busy[id] = note_held(worker, now, by_job);
   std::size_t leases = 0;
   for (const auto& [id, held] : by_job) leases += held.size();
-  if (leases > 0) next_look = now + between_looks + leases * a_lease;
+  if (leases > 0) next_look = now + std::max<FarmTime>(between_looks, leases * a_lease);
   for (auto& [id, held] : by_job) {
     const Job& job = jobs.at(id);
     if (!share_stragglers(job, held, all, now)) copy_stragglers(job, std::move(held), all, busy, now);
