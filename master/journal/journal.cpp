@@ -87,6 +87,8 @@ void Journal::write(std::span<const FarmRecord> records) try {
 
 void Journal::tidy() try {
   if (state_->is_tidy) return;
+  state_->is_tidy = !state_->has_waste() && !state_->has_spare_room();
+  if (state_->is_tidy) return;
   bool was_untidy = true;
   state_->in_one([&] { was_untidy = state_->delete_waste(tiles_tidied) || state_->give_back_room(); });
   state_->is_tidy = !was_untidy;
@@ -203,11 +205,18 @@ void Journal::State::write(const JobDropped& dropped) {
   films.erase(dropped.id);
 }
 
-bool Journal::State::give_back_room() {
+bool Journal::State::has_waste() { return database.query("SELECT 1 FROM waste")->executeStep(); }
+
+bool Journal::State::has_spare_room() {
   SQLite::Database& sqlite = database.sqlite();
   const std::int64_t free = sqlite.execAndGet("PRAGMA freelist_count");
+  return free > spare_pages && free * 3 > sqlite.execAndGet("PRAGMA page_count").getInt64();
+}
+
+bool Journal::State::give_back_room() {
+  if (!has_spare_room()) return false;
+  SQLite::Database& sqlite = database.sqlite();
   const std::int64_t all = sqlite.execAndGet("PRAGMA page_count");
-  if (free <= spare_pages || free * 3 <= all) return false;
   sqlite.exec(give_back_some);
   return sqlite.execAndGet("PRAGMA page_count").getInt64() < all;
 }

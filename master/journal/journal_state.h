@@ -57,6 +57,8 @@ struct Journal::State {
   void write(const WorkerBanned& banned);
   void write(const WorkerKnown& known);
   void keep_blob(FrameId user, const std::string& hash, const SharedBytes& bytes);
+  bool has_waste();
+  bool has_spare_room();
   /// Some of the file's end, when much of it is free. False: it is not.
   bool give_back_room();
   void drop_scene(FrameId id);
