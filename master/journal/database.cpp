@@ -89,6 +89,11 @@ void make_schema(SQLite::Database& database, const std::filesystem::path& file) 
   transaction.commit();
 }
 
+int tell_pages(void* log_pages, sqlite3*, const char*, int pages) {
+  *static_cast<std::int64_t*>(log_pages) = pages;
+  return SQLITE_OK;
+}
+
 }  // namespace
 
 bool is_damage(const SQLite::Exception& error) {
@@ -101,6 +106,8 @@ Database::Database(const std::filesystem::path& file) try
   sqlite_.exec("PRAGMA journal_mode = WAL");
   sqlite_.exec("PRAGMA synchronous = NORMAL");    // WalSync syncs, on its thread
   sqlite_.exec("PRAGMA wal_autocheckpoint = 0");  // and moves the log into the file
+  page_size_ = sqlite_.execAndGet("PRAGMA page_size");
+  sqlite3_wal_hook(sqlite_.getHandle(), &tell_pages, &log_pages_);
   make_schema(sqlite_, file);
 } catch (const SQLite::Exception& error) {
   refuse(file, error);

@@ -26,6 +26,7 @@ using Query = std::unique_ptr<SQLite::Statement, EndQuery>;
 class Database {
  public:
   explicit Database(const std::filesystem::path& file);
+  Database(const Database&) = delete;
 
   /// The statement with these values in place of its question marks, to be stepped through. The text is a literal.
   template <class... Values>
@@ -41,6 +42,9 @@ class Database {
   }
 
   SQLite::Database& sqlite() { return sqlite_; }
+  /// What the write-ahead log held, in bytes, after the last write of this connection. Its file may be larger: it is
+  /// written again from its begin once all of it was moved.
+  std::int64_t log_size() const { return log_pages_ * page_size_; }
 
  private:
   SQLite::Statement& prepared(const char* sql);
@@ -55,6 +59,7 @@ class Database {
   }
 
   SQLite::Database sqlite_;
+  std::int64_t log_pages_ = 0, page_size_ = 0;
   std::map<const char*, SQLite::Statement> statements_;
 };
 

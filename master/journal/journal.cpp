@@ -35,7 +35,7 @@ Journal::Journal(const std::filesystem::path& file) try : state_(std::make_uniqu
 Journal::~Journal() {
   try {
     state_->set_fact("is_running", 0);
-    state_->sync.wake(state_->writes);
+    state_->sync.wake({state_->writes, state_->database.log_size()});
   } catch (const SQLite::Exception&) {
     // The next start takes this for a crash, which is right.
   }
@@ -102,8 +102,7 @@ void Journal::State::in_one(const std::function<void()>& changes) {
   set_fact("writes", writes + 1);
   transaction.commit();
   ++writes;
-  is_tidy = false;
-  sync.wake(writes);
+  sync.wake({writes, database.log_size()});
 }
 
 void Journal::State::refuse_to_write(const SQLite::Exception& error) const {
@@ -158,6 +157,7 @@ void Journal::State::write(const TileCommitted& commit) {
 }
 
 void Journal::State::write(const PassesLost& lost) {
+  is_tidy = false;
   std::vector<std::int64_t> ids;
   const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ?",
                                      number_of(lost.frame.job), lost.frame.frame);
@@ -222,6 +222,7 @@ bool Journal::State::give_back_room() {
 }
 
 void Journal::State::drop_scene(FrameId id) {
+  is_tidy = false;
   database.run(
       "DELETE FROM blobs WHERE hash IN (SELECT hash FROM uses WHERE job = ?1 AND frame = ?2) AND NOT EXISTS "
       "(SELECT 1 FROM uses WHERE uses.hash = blobs.hash AND NOT (job = ?1 AND frame = ?2))",
@@ -231,6 +232,7 @@ void Journal::State::drop_scene(FrameId id) {
 }
 
 void Journal::State::drop_tiles(FrameId id) {
+  is_tidy = false;
   database.run("INSERT OR IGNORE INTO waste VALUES (?, ?)", number_of(id.job), id.frame);
 }
 

@@ -31,7 +31,7 @@ struct Journal::State {
   std::int64_t writes = 0;       // transactions
   std::int64_t lives = 0;        // this one too
   std::int64_t lost_writes = 0;  // that were synced once, and are gone
-  bool is_tidy = false;          // nothing was left to do, and nothing was written since
+  bool is_tidy = false;          // nothing was left to do, and nothing was dropped since
   WalSync sync;
 
   /// A crash is counted against those that were live.

@@ -16,8 +16,8 @@ namespace {
 
 constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
 constexpr auto patience = std::chrono::seconds(1);         // with a disk that had a fault
-constexpr std::uintmax_t large_log = 4u << 20;             // bytes: then it is moved into the file
-constexpr std::uintmax_t huge_log = 16u << 20;             // bytes: then writers wait until it is empty
+constexpr std::int64_t large_log = 4 << 20;                // bytes: then it is moved into the file
+constexpr std::int64_t huge_log = 16 << 20;                // bytes: then writers wait until it is empty
 
 /// The disk says so once: a file that could not be synced counts as synced the next time.
 struct WriteLost : std::runtime_error {
@@ -73,13 +73,14 @@ WalSync::~WalSync() {
     is_ending_ = true;
   }
   news_.notify_one();
+  hurry_.notify_one();
   thread_.join();
 }
 
-void WalSync::wake(std::int64_t writes) {
+void WalSync::wake(Written written) {
   {
     const std::lock_guard lock(mutex_);
-    writes_ = writes;
+    written_ = written;
   }
   news_.notify_one();
 }
@@ -89,7 +90,7 @@ std::optional<std::string> WalSync::take_fault() {
   if (loss_) return std::exchange(loss_, std::nullopt);
   if (!fault_) return std::nullopt;
   is_asked_ = true;
-  news_.notify_one();
+  hurry_.notify_one();
   ended_.wait_for(lock, patience, [this] { return !is_asked_ || !fault_; });
   is_asked_ = false;
   return fault_;
@@ -98,44 +99,41 @@ std::optional<std::string> WalSync::take_fault() {
 void WalSync::work() {
   std::unique_lock lock(mutex_);
   while (true) {
-    news_.wait(lock, [this] { return writes_ != synced_ || is_ending_; });
+    news_.wait(lock, [this] { return written_.writes != synced_ || is_ending_; });
     const bool was_last = is_ending_;
-    if (synced_ != writes_) try_to_sync(lock);
+    if (synced_ != written_.writes) try_to_sync(lock);
     if (was_last) return;
-    news_.wait_for(lock, interval, [this] { return is_ending_ || is_asked_; });
+    hurry_.wait_for(lock, interval, [this] { return is_ending_ || is_asked_; });
   }
 }
 
 /// What fails is tried again.
 void WalSync::try_to_sync(std::unique_lock<std::mutex>& lock) {
-  const std::int64_t writes = writes_;
+  const Written written = written_;
   const bool was_asked = is_asked_;
   std::optional<std::string> fault, loss;
   lock.unlock();
   try {
-    sync(writes);
+    sync(written);
   } catch (const WriteLost& error) {
     fault = loss = error.what();
   } catch (const std::exception& error) {
     fault = error.what();
   }
   lock.lock();
-  if (!fault) synced_ = writes;
+  if (!fault) synced_ = written.writes;
   if (loss) loss_ = loss;
   fault_ = fault;
   if (was_asked) is_asked_ = false;
   ended_.notify_all();
 }
 
-void WalSync::sync(std::int64_t writes) {
-  const std::filesystem::path log = log_of(journal_);
-  sync_file(log);
-  put_mark(journal_, writes);
-  std::error_code missing;
-  const std::uintmax_t size = std::filesystem::file_size(log, missing);
-  if (missing || size < large_log) return;
+void WalSync::sync(Written written) {
+  sync_file(log_of(journal_));
+  put_mark(journal_, written.writes);
+  if (written.log_size < large_log) return;
   empty_log(journal_, "PASSIVE");
-  if (size >= huge_log) empty_log(journal_, "TRUNCATE");
+  if (written.log_size >= huge_log) empty_log(journal_, "TRUNCATE");
 }
 
 }  // namespace rayfarm

@@ -25,21 +25,28 @@ class WalSync {
   ~WalSync();
   WalSync(const WalSync&) = delete;
 
-  /// So many writes were committed; they will be synced within 100 ms, or as soon as the disk allows.
-  void wake(std::int64_t writes);
+  struct Written {
+    std::int64_t writes = 0;    // in the journal's life
+    std::int64_t log_size = 0;  // bytes of them that are in the log
+  };
+  /// So much was committed; it will be synced within 100 ms, or as soon as the disk allows.
+  void wake(Written written);
   /// Why the disk does not take what was committed, by a try that begins now; or why it lost a write, which it says once
   /// and so do we.
   std::optional<std::string> take_fault();
 
  private:
   void work();
-  void sync(std::int64_t writes);
+  void sync(Written written);
   void try_to_sync(std::unique_lock<std::mutex>& lock);
 
   const std::filesystem::path journal_;
   std::mutex mutex_;
-  std::condition_variable news_, ended_;
-  std::int64_t writes_ = 0, synced_ = 0;
+  std::condition_variable news_;   // something is to be synced
+  std::condition_variable hurry_;  // at once
+  std::condition_variable ended_;  // a try
+  Written written_;
+  std::int64_t synced_ = 0;  // writes
   bool is_ending_ = false, is_asked_ = false;
   std::optional<std::string> fault_;  // of the last try
   std::optional<std::string> loss_;   // not told yet
