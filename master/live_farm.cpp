@@ -86,6 +86,10 @@ void LiveFarm::keep() {
   for (const auto& told : std::exchange(waiting_, {})) told(fault);
 }
 
+std::optional<std::string> LiveFarm::until_synced() {
+  return journal_ ? journal_->until_synced() : std::nullopt;
+}
+
 void LiveFarm::tick() {
   apply([](Farm& farm, FarmTime now) { farm.tick(now); });
   if (journal_ && is_writable_) try {

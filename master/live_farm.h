@@ -16,7 +16,7 @@ namespace rayfarm {
 
 class Journal;
 
-/// All calls are made from one thread.
+/// All calls are made from one thread, but for one.
 class LiveFarm {
  public:
   /// Forgotten with the process, unless a journal is opened.
@@ -41,6 +41,8 @@ class LiveFarm {
   /// Writes to the journal what changed, and returns when it will outlive the process. When that cannot be done, all jobs
   /// are paused and say why; what was not written is kept and tried again when there is more: resuming a job is enough.
   void keep();
+  /// Returns when all that was kept will outlive the power, too, or why it will not. From any thread, after open().
+  std::optional<std::string> until_synced();
   /// What the farm and its journal do from time to time; called ten times a second.
   void tick();
   /// Called at the end of the next keep(), with the reason if that failed.

@@ -191,7 +191,7 @@ int serve(const Arguments& arguments) {
           farm.keep();
         });
       },
-      [&](Told told) { farm.once_kept(std::move(told)); });
+      [&](Told told) { farm.once_kept(std::move(told)); }, [&] { return farm.until_synced(); });
   FrameFeeder feeder(door);
   Diagnostics diagnostics(std::max(1u, std::thread::hardware_concurrency()));
   StrangerLog people_refused;

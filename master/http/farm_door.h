@@ -30,9 +30,13 @@ struct NotKept : std::runtime_error {
 class FarmDoor {
  public:
   /// once_kept(told) is called on the farm's thread, within a closure of on_farm, and tells after its end.
+  /// until_synced() is called on that of an asker, and returns when what was kept will outlive the power, or why not.
   explicit FarmDoor(
-      OnFarm on_farm, std::function<void(Told)> once_kept = [](const Told& told) { told({}); })
-      : on_farm_(std::move(on_farm)), once_kept_(std::move(once_kept)) {}
+      OnFarm on_farm, std::function<void(Told)> once_kept = [](const Told& told) { told({}); },
+      std::function<std::optional<std::string>()> until_synced = [] { return std::nullopt; })
+      : on_farm_(std::move(on_farm)),
+        once_kept_(std::move(once_kept)),
+        until_synced_(std::move(until_synced)) {}
 
   /// Runs question(farm, now) on the farm's thread and waits for its answer. The question must own what it
   /// uses: the wait can end first. Nobody is told what the end of the master could undo. Throws what the question
@@ -71,6 +75,14 @@ class FarmDoor {
     }
   }
 
+  /// As ask(), for what people order: nobody is told of it what a power cut could undo.
+  template <class Order>
+  std::invoke_result_t<Order&, Farm&, FarmTime> order(Order order) const {
+    auto done = ask(std::move(order));
+    if (const std::optional<std::string> fault = until_synced_()) throw NotKept(*fault);
+    return done;
+  }
+
   /// Waiting askers leave: the farm's thread may be the one that wants them gone.
   void close() { closed_ = true; }
 
@@ -80,6 +92,7 @@ class FarmDoor {
 
   OnFarm on_farm_;
   std::function<void(Told)> once_kept_;
+  std::function<std::optional<std::string>()> until_synced_;
   std::atomic<bool> closed_{false};
 };
 

@@ -66,10 +66,11 @@ ApiResponse submit_job(const Call& call) {
   if (auto denial = denial_now(call.request)) return std::move(*denial);  // the script took its time
   const std::optional<FrameRange> frames = job.spec.frames;
   if (job.script && frames && frames->count() > 1) job.spec.script = kept_script(*job.script);
-  const json submitted = call.doors.farm.ask([spec = std::move(job.spec)](Farm& farm, FarmTime now) mutable {
-    const JobId id = farm.submit(std::move(spec), now);
-    return job_now(farm, id, now);
-  });
+  const json submitted =
+      call.doors.farm.order([spec = std::move(job.spec)](Farm& farm, FarmTime now) mutable {
+        const JobId id = farm.submit(std::move(spec), now);
+        return job_now(farm, id, now);
+      });
   // A job that was there already is fed already.
   if (job.script && frames && frames->count() > 1 && submitted["frames"]["sent"] == 1)
     call.doors.feeder.feed(JobId{submitted["id"].get<std::uint64_t>()}, std::move(*job.script), *frames);
@@ -90,7 +91,7 @@ ApiResponse list_frames(const Call& call) {
 ApiResponse add_frame(const Call& call) {
   SubmittedFrame frame = frame_from_json(body_of(call), call.doors.assets);
   ApiResponse response =
-      shown(call.doors.farm.ask([id = job_id(call), frame = std::move(frame)](Farm& farm, FarmTime now) {
+      shown(call.doors.farm.order([id = job_id(call), frame = std::move(frame)](Farm& farm, FarmTime now) {
         const bool is_taken =
             farm.add_frame({id, frame.number}, frame.scene.hash, frame.scene.bytes, now, frame.assets);
         json job = job_now(farm, id, now);
@@ -105,12 +106,14 @@ ApiResponse add_frame(const Call& call) {
 /// Runs change(farm, id, now), which says false when there is no such job or it has ended.
 template <class Change>
 ApiResponse change_job(const Call& call, Change change) {
-  return shown(call.doors.farm.ask([id = job_id(call), change = std::move(change)](Farm& farm, FarmTime now) {
-    const bool changed = change(farm, id, now);
-    json job = job_now(farm, id, now);
-    if (!changed) throw ApiError(409, text_of(id) + " has ended (" + job["state"].get<std::string>() + ")");
-    return job;
-  }));
+  return shown(
+      call.doors.farm.order([id = job_id(call), change = std::move(change)](Farm& farm, FarmTime now) {
+        const bool changed = change(farm, id, now);
+        json job = job_now(farm, id, now);
+        if (!changed)
+          throw ApiError(409, text_of(id) + " has ended (" + job["state"].get<std::string>() + ")");
+        return job;
+      }));
 }
 
 ApiResponse pause_job(const Call& call) {
@@ -130,7 +133,7 @@ ApiResponse prioritise_job(const Call& call) {
 
 /// The job as it was.
 ApiResponse remove_job(const Call& call) {
-  return shown(call.doors.farm.ask([id = job_id(call)](Farm& farm, FarmTime now) {
+  return shown(call.doors.farm.order([id = job_id(call)](Farm& farm, FarmTime now) {
     json job = job_now(farm, id, now);
     if (!farm.remove(id))
       throw ApiError(409, text_of(id) + " is " + job["state"].get<std::string>() + ": cancel it first");

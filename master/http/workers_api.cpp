@@ -19,7 +19,7 @@ ApiResponse list_workers(const Call& call) {
 
 template <class Change>
 ApiResponse change_worker(const Call& call, Change change) {
-  return shown(call.doors.farm.ask([name = call.arguments.at(0), change](Farm& farm, FarmTime now) {
+  return shown(call.doors.farm.order([name = call.arguments.at(0), change](Farm& farm, FarmTime now) {
     if (!change(farm, name, now)) throw ApiError(404, "there is no worker " + name);
     return json{{"name", name}};
   }));

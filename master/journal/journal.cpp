@@ -85,6 +85,8 @@ void Journal::write(std::span<const FarmRecord> records) try {
   state_->refuse_to_write(error);
 }
 
+std::optional<std::string> Journal::until_synced() { return state_->sync.until_synced(); }
+
 void Journal::tidy() try {
   if (state_->is_tidy) return;
   state_->is_tidy = !state_->has_waste() && !state_->has_spare_room();

@@ -11,6 +11,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -25,7 +26,7 @@ struct JournalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// All calls are made from one thread.
+/// All calls are made from one thread, but for one.
 class Journal {
  public:
   /// Makes the file if it is missing. Throws JournalError when it cannot be used: not writable, no journal, of a newer
@@ -45,6 +46,8 @@ class Journal {
 
   /// All of them or, when it throws JournalError, none: to be written again later.
   void write(std::span<const FarmRecord> records);
+  /// Returns when all that was written survives also the end of the power, or why it does not. From any thread.
+  std::optional<std::string> until_synced();
   /// A few milliseconds of what is left to do when nothing else is: deleting, making the file smaller. Called ten times a
   /// second. Throws JournalError.
   void tidy();

@@ -16,6 +16,7 @@ namespace {
 
 constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
 constexpr auto patience = std::chrono::seconds(1);         // with a disk that had a fault
+constexpr auto long_patience = std::chrono::seconds(10);   // with one that is slow
 constexpr std::int64_t large_log = 4 << 20;                // bytes: then it is moved into the file
 constexpr std::int64_t huge_log = 16 << 20;                // bytes: then writers wait until it is empty
 
@@ -89,11 +90,21 @@ std::optional<std::string> WalSync::take_fault() {
   std::unique_lock lock(mutex_);
   if (loss_) return std::exchange(loss_, std::nullopt);
   if (!fault_) return std::nullopt;
-  is_asked_ = true;
+  const std::int64_t mine = ++asked_;
   hurry_.notify_one();
-  ended_.wait_for(lock, patience, [this] { return !is_asked_ || !fault_; });
-  is_asked_ = false;
+  ended_.wait_for(lock, patience, [&] { return answered_ >= mine || !fault_; });
   return fault_;
+}
+
+std::optional<std::string> WalSync::until_synced() {
+  std::unique_lock lock(mutex_);
+  const std::int64_t all = written_.writes;
+  if (synced_ >= all) return std::nullopt;
+  const std::int64_t mine = ++asked_;
+  hurry_.notify_one();
+  ended_.wait_for(lock, long_patience, [&] { return answered_ >= mine || synced_ >= all; });
+  if (synced_ >= all) return std::nullopt;
+  return fault_ ? fault_ : "the disk of " + journal_.string() + " takes more than 10 s to keep it";
 }
 
 void WalSync::work() {
@@ -103,14 +114,14 @@ void WalSync::work() {
     const bool was_last = is_ending_;
     if (synced_ != written_.writes) try_to_sync(lock);
     if (was_last) return;
-    hurry_.wait_for(lock, interval, [this] { return is_ending_ || is_asked_; });
+    hurry_.wait_for(lock, interval, [this] { return is_ending_ || asked_ != answered_; });
   }
 }
 
 /// What fails is tried again.
 void WalSync::try_to_sync(std::unique_lock<std::mutex>& lock) {
   const Written written = written_;
-  const bool was_asked = is_asked_;
+  const std::int64_t asked = asked_;
   std::optional<std::string> fault, loss;
   lock.unlock();
   try {
@@ -124,7 +135,7 @@ void WalSync::try_to_sync(std::unique_lock<std::mutex>& lock) {
   if (!fault) synced_ = written.writes;
   if (loss) loss_ = loss;
   fault_ = fault;
-  if (was_asked) is_asked_ = false;
+  answered_ = asked;
   ended_.notify_all();
 }
 

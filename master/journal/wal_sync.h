@@ -31,6 +31,8 @@ class WalSync {
   };
   /// So much was committed; it will be synced within 100 ms, or as soon as the disk allows.
   void wake(Written written);
+  /// Returns when all that was committed is synced, which begins at once; or why it is not. From any thread.
+  std::optional<std::string> until_synced();
   /// Why the disk does not take what was committed, by a try that begins now; or why it lost a write, which it says once
   /// and so do we.
   std::optional<std::string> take_fault();
@@ -46,8 +48,9 @@ class WalSync {
   std::condition_variable hurry_;  // at once
   std::condition_variable ended_;  // a try
   Written written_;
-  std::int64_t synced_ = 0;  // writes
-  bool is_ending_ = false, is_asked_ = false;
+  std::int64_t synced_ = 0;                // writes
+  std::int64_t asked_ = 0, answered_ = 0;  // tries that are not to wait
+  bool is_ending_ = false;
   std::optional<std::string> fault_;  // of the last try
   std::optional<std::string> loss_;   // not told yet
   std::thread thread_;

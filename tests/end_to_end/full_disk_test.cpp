@@ -1,6 +1,6 @@
 // A master whose disk is full: its jobs wait and say why, and go on where they were when there is room.
 #include "tests/end_to_end/farm_programs.h"
-#include "tests/support/small_disk.h"
+#include "tests/support/failing_disk.h"
 
 namespace rayfarm {
 namespace {

@@ -324,6 +324,15 @@ TEST(FarmDoor, SaysWhatWasDoneButNotKept) {
   EXPECT_EQ(farm.jobs(FarmTime{}).size(), 1u);
 }
 
+TEST(FarmDoor, TellsOfAnOrderWhatKeepsItFromOutlivingThePower) {
+  Farm farm;
+  const FarmDoor door([&](const auto& task) { task(farm, FarmTime{}); }, [](const Told& told) { told({}); },
+                      [] { return std::optional<std::string>("the disk is gone"); });
+  const auto submit = [](Farm& f, FarmTime now) { return f.submit(small_job(), now); };
+  EXPECT_THROW(door.order(submit), NotKept);
+  EXPECT_NO_THROW(door.ask(submit)) << "who only looks does not wait";
+}
+
 TEST(NewsWait, IsAskedForByJobsAloneAndIsBounded) {
   const auto wait = [](const char* target) { return news_wait({"GET", target, "", "", "", "", ""}); };
   EXPECT_EQ(wait("/api/v1/jobs?after=3&wait=10")->after, 3u);

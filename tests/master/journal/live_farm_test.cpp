@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include "master/journal/wal_sync.h"
 #include "tests/master/farm/fake_worker.h"
 #include "tests/support/scratch_folder.h"
 
@@ -78,6 +79,19 @@ TEST_F(LiveFarmTest, TellsWhoWaitsOnceWhatChangedIsKept) {
   live.keep();
   EXPECT_EQ(told, 1);
   EXPECT_EQ(job, JobId{1});
+}
+
+TEST_F(LiveFarmTest, WaitsUntilWhatIsKeptIsSynced) {
+  LiveFarm live;
+  live.open(journal());
+  for (int turn = 0; turn < 5; ++turn) {
+    submit(live);
+    live.keep();
+    EXPECT_EQ(live.until_synced(), std::nullopt);
+    SQLite::Database database(journal().string());
+    EXPECT_EQ(marked_writes(journal()),
+              database.execAndGet("SELECT value FROM facts WHERE name = 'writes'").getInt64());
+  }
 }
 
 TEST_F(LiveFarmTest, WritesAllChangesOfOneTurnAtItsEnd) {
