@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <iterator>
 #include <random>
+#include <thread>
 
 #include "master/journal/journal.h"
 
 namespace rayfarm {
 namespace {
+
+constexpr int ticks_between_tries = 10;  // of a journal that cannot be written: a second
+constexpr std::chrono::milliseconds glance{10};
 
 std::uint64_t drawn() {
   std::random_device random;
@@ -51,7 +55,13 @@ void LiveFarm::open(const std::filesystem::path& journal) {
   keep();
 }
 
-LiveFarm::~LiveFarm() { keep(); }
+LiveFarm::~LiveFarm() {
+  do {
+    is_late_ = false;
+    keep();
+    if (is_late_) std::this_thread::sleep_for(glance);
+  } while (is_late_);
+}
 
 FarmTime LiveFarm::now() const { return steady_time() + clock_offset_; }
 
@@ -73,40 +83,55 @@ void LiveFarm::take_news() {
 }
 
 void LiveFarm::keep() {
+  if (is_late_) return;
   std::optional<std::string> fault;
-  if (unwritten_.size() != tried_) try {
-      write();
-    } catch (const JournalError& error) {
-      fault = error.what();
-      if (tried_ == 0) note({true, *fault, {}});
-      pause_all(*fault);
-      tried_ = unwritten_.size();
-      is_writable_ = false;
-    }
+  if (unwritten_.size() != tried_) fault = write();
+  if (is_late_) return;
   for (const auto& told : std::exchange(waiting_, {})) told(fault);
 }
 
 std::optional<std::string> LiveFarm::until_synced() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (behind_) return behind_;
+  }
   return journal_ ? journal_->until_synced() : std::nullopt;
 }
 
 void LiveFarm::tick() {
   apply([](Farm& farm, FarmTime now) { farm.tick(now); });
-  if (journal_ && is_writable_) try {
-      journal_->tidy();
-      untidy_.clear();
-    } catch (const JournalError& error) {
-      is_writable_ = false;
-      if (std::exchange(untidy_, error.what()) != error.what()) note({true, untidy_, {}});
-    }
+  if (std::exchange(is_late_, false)) keep();
+  if (tried_ != 0 && ++ticks_ >= ticks_between_tries) write();
+  if (journal_ && is_writable_ && !is_late_) tidy();
 }
 
-void LiveFarm::write() {
-  journal_->write(unwritten_);
-  unwritten_.clear();
-  is_writable_ = true;
-  if (std::exchange(tried_, 0) != 0)
-    note({false, "the journal is written again; resume the jobs that are paused", {}});
+void LiveFarm::tidy() try {
+  journal_->tidy();
+  untidy_.clear();
+} catch (const JournalError& error) {
+  is_writable_ = false;
+  if (std::exchange(untidy_, error.what()) != error.what()) note({true, untidy_, {}});
+}
+
+std::optional<std::string> LiveFarm::write() {
+  std::optional<std::string> fault;
+  try {
+    is_late_ = !journal_->write(unwritten_);
+    if (is_late_) return std::nullopt;
+    unwritten_.clear();
+    is_writable_ = true;
+    if (std::exchange(tried_, 0) != 0)
+      note({false, "the journal is written again; resume the jobs that are paused", {}});
+  } catch (const JournalError& error) {
+    fault = error.what();
+    if (tried_ == 0) note({true, *fault, {}});
+    pause_all(*fault);
+    tried_ = unwritten_.size(), ticks_ = 0;
+    is_writable_ = false;
+  }
+  const std::lock_guard lock(mutex_);
+  behind_ = fault;
+  return fault;
 }
 
 void LiveFarm::pause_all(const std::string& why) {

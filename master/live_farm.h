@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -39,13 +40,15 @@ class LiveFarm {
   /// are written at once, at its end.
   void when_changed(std::function<void()> call) { when_changed_ = std::move(call); }
   /// Writes to the journal what changed, and returns when it will outlive the process. When that cannot be done, all jobs
-  /// are paused and say why; what was not written is kept and tried again when there is more: resuming a job is enough.
+  /// are paused and say why; what was not written is kept and tried again when there is more, and each second. When the
+  /// journal is at something else, a tick will do it.
   void keep();
-  /// Returns when all that was kept will outlive the power, too, or why it will not. From any thread, after open().
+  /// Returns when all that was kept will outlive the power, too, or why it, or what happened before, will not. From any
+  /// thread, after open().
   std::optional<std::string> until_synced();
   /// What the farm and its journal do from time to time; called ten times a second.
   void tick();
-  /// Called at the end of the next keep(), with the reason if that failed.
+  /// Called at the end of the next keep() that has nothing left to write, or with the reason if that failed.
   void once_kept(std::function<void(const std::optional<std::string>& fault)> told) {
     waiting_.push_back(std::move(told));
   }
@@ -61,7 +64,9 @@ class LiveFarm {
   };
   FarmTime now() const;
   void take_news();
-  void write();
+  /// Why it failed.
+  std::optional<std::string> write();
+  void tidy();
   void pause_all(const std::string& why);
 
   FarmTime clock_offset_;  // farm's time minus that of the steady clock
@@ -71,10 +76,14 @@ class LiveFarm {
   EventLog log_;
   std::vector<FarmRecord> unwritten_;
   std::size_t tried_ = 0;    // so many of them could not be written
+  int ticks_ = 0;            // since then
+  bool is_late_ = false;     // the journal was at something else
   bool is_writable_ = true;  // no failure since the last write
   std::string untidy_;       // what was said last of why nothing can be deleted
   std::function<void()> when_changed_ = [] {};
   std::vector<std::function<void(const std::optional<std::string>&)>> waiting_;
+  std::mutex mutex_;
+  std::optional<std::string> behind_;  // why not all is written; guarded by it
 };
 
 }  // namespace rayfarm

@@ -19,6 +19,9 @@ using OnFarm = std::function<void(std::function<void(Farm&, FarmTime)>)>;
 /// Told why what was done will not outlive the master; nothing when it will.
 using Told = std::function<void(const std::optional<std::string>& fault)>;
 
+/// Returns when what was done will outlive the power, too, or why it will not.
+using UntilSynced = std::function<std::optional<std::string>()>;
+
 struct FarmUnavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -30,10 +33,10 @@ struct NotKept : std::runtime_error {
 class FarmDoor {
  public:
   /// once_kept(told) is called on the farm's thread, within a closure of on_farm, and tells after its end.
-  /// until_synced() is called on that of an asker, and returns when what was kept will outlive the power, or why not.
+  /// until_synced() is called on that of an asker.
   explicit FarmDoor(
       OnFarm on_farm, std::function<void(Told)> once_kept = [](const Told& told) { told({}); },
-      std::function<std::optional<std::string>()> until_synced = [] { return std::nullopt; })
+      UntilSynced until_synced = [] { return std::nullopt; })
       : on_farm_(std::move(on_farm)),
         once_kept_(std::move(once_kept)),
         until_synced_(std::move(until_synced)) {}
@@ -92,7 +95,7 @@ class FarmDoor {
 
   OnFarm on_farm_;
   std::function<void(Told)> once_kept_;
-  std::function<std::optional<std::string>()> until_synced_;
+  UntilSynced until_synced_;
   std::atomic<bool> closed_{false};
 };
 

@@ -66,15 +66,16 @@ ApiResponse submit_job(const Call& call) {
   if (auto denial = denial_now(call.request)) return std::move(*denial);  // the script took its time
   const std::optional<FrameRange> frames = job.spec.frames;
   if (job.script && frames && frames->count() > 1) job.spec.script = kept_script(*job.script);
-  const json submitted =
-      call.doors.farm.order([spec = std::move(job.spec)](Farm& farm, FarmTime now) mutable {
-        const JobId id = farm.submit(std::move(spec), now);
-        return job_now(farm, id, now);
-      });
-  // A job that was there already is fed already.
-  if (job.script && frames && frames->count() > 1 && submitted["frames"]["sent"] == 1)
-    call.doors.feeder.feed(JobId{submitted["id"].get<std::uint64_t>()}, std::move(*job.script), *frames);
-  ApiResponse response = shown(submitted);
+  // Fed where it is taken, as the answer may be that it is not on the disk yet.
+  ApiResponse response = shown(call.doors.farm.order(
+      [job = std::move(job), frames, &feeder = call.doors.feeder](Farm& farm, FarmTime now) mutable {
+        const JobId id = farm.submit(std::move(job.spec), now);
+        json submitted = job_now(farm, id, now);
+        // One that was there already is fed already.
+        if (job.script && frames && frames->count() > 1 && submitted["frames"]["sent"] == 1)
+          feeder.feed(id, std::move(*job.script), *frames);
+        return submitted;
+      }));
   response.status = 201;
   return response;
 }
@@ -147,11 +148,11 @@ constexpr Route routes[]{
     {"GET", "/api/v1/jobs/{id}?after&wait", show_job},
     {"GET", "/api/v1/jobs/{id}/frames", list_frames},
     {"POST", "/api/v1/jobs/{id}/frames", add_frame, Work::script, submission_limit},
-    {"POST", "/api/v1/jobs/{id}/pause", pause_job},
-    {"POST", "/api/v1/jobs/{id}/resume", resume_job},
-    {"POST", "/api/v1/jobs/{id}/cancel", cancel_job},
-    {"POST", "/api/v1/jobs/{id}/priority", prioritise_job},
-    {"POST", "/api/v1/jobs/{id}/remove", remove_job},
+    {"POST", "/api/v1/jobs/{id}/pause", pause_job, Work::order},
+    {"POST", "/api/v1/jobs/{id}/resume", resume_job, Work::order},
+    {"POST", "/api/v1/jobs/{id}/cancel", cancel_job, Work::order},
+    {"POST", "/api/v1/jobs/{id}/priority", prioritise_job, Work::order},
+    {"POST", "/api/v1/jobs/{id}/remove", remove_job, Work::order},
 };
 
 }  // namespace

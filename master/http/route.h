@@ -19,6 +19,7 @@ namespace rayfarm {
 /// Each kind has threads of its own, so that it never waits behind another one.
 enum class Work : std::uint8_t {
   command,  // asks the farm something small
+  order,    // changes something, and waits until that is on the disk: more of them wait together
   trace,    // milliseconds of processor time
   picture,  // seconds: pictures, maps, clouds and films are made into files
   look,     // up to 5 s: scripts are evaluated for a form

@@ -115,7 +115,8 @@ struct HttpServer::Parts {
   // What waits in these owns sessions, which use the members above.
   asio::io_context io{1};
   tcp::acceptor acceptor;
-  std::array<asio::thread_pool, 5> threads{asio::thread_pool(1), asio::thread_pool(1), asio::thread_pool(2),
+  std::array<asio::thread_pool, 6> threads{asio::thread_pool(1), asio::thread_pool(8),
+                                           asio::thread_pool(1), asio::thread_pool(2),
                                            asio::thread_pool(4), asio::thread_pool(2)};  // by kind of work
   asio::thread_pool live_threads{1};
   std::jthread thread;

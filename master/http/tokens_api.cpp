@@ -157,8 +157,8 @@ ApiResponse show_authority(const Call& call) {
 
 constexpr Route routes[]{
     {"GET", "/api/v1/tokens", list_tokens, Work::command, command_limit, Needs::admin},
-    {"POST", "/api/v1/tokens", make_token, Work::command, command_limit, Needs::admin},
-    {"POST", "/api/v1/tokens/{id}/revoke", revoke_token, Work::command, command_limit, Needs::admin},
+    {"POST", "/api/v1/tokens", make_token, Work::order, command_limit, Needs::admin},
+    {"POST", "/api/v1/tokens/{id}/revoke", revoke_token, Work::order, command_limit, Needs::admin},
     {"GET", "/api/v1/authority.pem", show_authority, Work::command, command_limit, Needs::nothing},
 };
 

@@ -84,10 +84,10 @@ ApiResponse show_log(const Call& call) {
 
 constexpr Route routes[]{
     {"GET", "/api/v1/workers", list_workers},
-    {"POST", "/api/v1/workers/{name}/drain", drain_worker, Work::command, command_limit, Needs::admin},
-    {"POST", "/api/v1/workers/{name}/undrain", undrain_worker, Work::command, command_limit, Needs::admin},
-    {"POST", "/api/v1/workers/{name}/ban", ban_worker, Work::command, command_limit, Needs::admin},
-    {"POST", "/api/v1/workers/{name}/unban", unban_worker, Work::command, command_limit, Needs::admin},
+    {"POST", "/api/v1/workers/{name}/drain", drain_worker, Work::order, command_limit, Needs::admin},
+    {"POST", "/api/v1/workers/{name}/undrain", undrain_worker, Work::order, command_limit, Needs::admin},
+    {"POST", "/api/v1/workers/{name}/ban", ban_worker, Work::order, command_limit, Needs::admin},
+    {"POST", "/api/v1/workers/{name}/unban", unban_worker, Work::order, command_limit, Needs::admin},
     {"POST", "/api/v1/workers", dial_worker, Work::command, command_limit, Needs::admin},
     {"DELETE", "/api/v1/workers/dial/{name}", stop_dialling, Work::command, command_limit, Needs::admin},
     {"GET", "/api/v1/log?after", show_log},

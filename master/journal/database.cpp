@@ -69,7 +69,7 @@ std::string made(const std::filesystem::path& file) {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const SQLite::Exception& error) {
   throw JournalError("the journal " + file.string() + " cannot be used: " + error.what() +
-                     "; move it away to begin with an empty farm, or choose another folder with --state");
+                     what_to_do_at_start(error));
 }
 
 void make_schema(SQLite::Database& database, const std::filesystem::path& file) {
@@ -99,6 +99,14 @@ int tell_pages(void* log_pages, sqlite3*, const char*, int pages) {
 bool is_damage(const SQLite::Exception& error) {
   return error.getErrorCode() == SQLITE_CORRUPT || error.getErrorCode() == SQLITE_NOTADB;
 }
+
+const char* what_to_do_at_start(const SQLite::Exception& error) {
+  return is_damage(error)
+             ? "; move it away to begin with an empty farm, or choose another folder with --state"
+             : "; make room there or mend the disk, or choose another folder with --state";
+}
+
+bool is_busy(const SQLite::Exception& error) { return error.getErrorCode() == SQLITE_BUSY; }
 
 Database::Database(const std::filesystem::path& file) try
     : sqlite_(made(file), SQLite::OPEN_READWRITE, journal_patience_ms) {

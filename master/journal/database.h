@@ -12,9 +12,14 @@
 namespace rayfarm {
 
 constexpr int journal_patience_ms = 5000;  // with its other connection: one writes, the other syncs
+constexpr int writer_patience_ms = 5;      // of a farm that is at work
 
 /// The file is no whole journal: no time and no room will help.
 bool is_damage(const SQLite::Exception& error);
+/// The end of a sentence, when a journal cannot be opened.
+const char* what_to_do_at_start(const SQLite::Exception& error);
+/// The other connection is at it.
+bool is_busy(const SQLite::Exception& error);
 
 /// A statement under way; while it is, others do not see the end of the log.
 struct EndQuery {

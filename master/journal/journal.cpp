@@ -2,8 +2,10 @@
 #include "master/journal/journal.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include "master/journal/journal_state.h"
+#include "master/journal/salvage.h"
 
 namespace rayfarm {
 namespace {
@@ -12,9 +14,7 @@ constexpr std::int64_t tiles_tidied = 64;   // at once: a few milliseconds
 constexpr std::int64_t spare_pages = 2048;  // 8 MB, and a third of the file, stay to be used again
 constexpr auto give_back_some = "PRAGMA incremental_vacuum(256)";  // pages: 1 MB, a few milliseconds
 constexpr auto what_to_do = "; make room there or mend the disk, then resume the job";
-constexpr auto how_to_begin_anew =
-    "; stop the master and move the journal away to begin with an empty farm, or choose another folder with "
-    "--state";
+constexpr auto what_if_damaged = "; start the master again: what can be read is then written anew";
 
 std::vector<std::int64_t> frames_of(Database& database, JobId job) {
   std::vector<std::int64_t> frames;
@@ -25,15 +25,34 @@ std::vector<std::int64_t> frames_of(Database& database, JobId job) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& file) try : state_(std::make_unique<State>(file)) {
-  state_->begin();
+Journal::Journal(const std::filesystem::path& file) try {
+  if (std::filesystem::exists(note_of_damage(file))) mended_ = salvage(file);
+  state_ = std::make_unique<State>(file);
+  try {
+    state_->begin();
+  } catch (const SQLite::Exception& error) {
+    if (!is_damage(error) || mended_) throw;
+    mend();
+  }
 } catch (const SQLite::Exception& error) {
   throw JournalError("the journal " + file.string() + " cannot be used: " + error.what() +
-                     "; move it away to begin with an empty farm, or choose another folder with --state");
+                     what_to_do_at_start(error));
+} catch (const std::filesystem::filesystem_error& error) {
+  throw JournalError("the journal " + file.string() + " is damaged and cannot be mended: " + error.what() +
+                     "; make room there or mend the disk, or choose another folder with --state");
+}
+
+void Journal::mend() {
+  const std::filesystem::path file = state_->file;
+  state_.reset();
+  mended_ = salvage(file);
+  state_ = std::make_unique<State>(file);
+  state_->begin();
 }
 
 Journal::~Journal() {
   try {
+    state_->database.sqlite().setBusyTimeout(journal_patience_ms);
     state_->set_fact("is_running", 0);
     state_->sync.wake({state_->writes, state_->database.log_size()});
   } catch (const SQLite::Exception&) {
@@ -54,6 +73,7 @@ void Journal::State::begin() {
   const Query last = database.query("SELECT max(id) FROM pixels");
   if (last->executeStep()) last_tile = last->getColumn(0);
   transaction.commit();
+  database.sqlite().setBusyTimeout(writer_patience_ms);
 }
 
 std::int64_t Journal::State::fact(const char* name) {
@@ -65,7 +85,7 @@ void Journal::State::set_fact(const char* name, std::int64_t value) {
   database.run("UPDATE facts SET value = ? WHERE name = ?", value, std::string(name));
 }
 
-void Journal::write(std::span<const FarmRecord> records) try {
+bool Journal::write(std::span<const FarmRecord> records) try {
   if (const auto fault = state_->sync.take_fault())
     throw JournalError("the journal cannot be synced: " + *fault + what_to_do);
   const auto workers = state_->workers;
@@ -74,14 +94,16 @@ void Journal::write(std::span<const FarmRecord> records) try {
     state_->in_one([&] {
       for (const FarmRecord& record : records)
         std::visit([this](const auto& fact) { state_->write(fact); }, record.fact);
-      // Faster than new ones come, also when there is never nothing else to do.
-      state_->delete_waste(2 * (state_->last_tile - last_tile));
     });
   } catch (...) {
     state_->workers = workers, state_->last_tile = last_tile;
     throw;
   }
+  // Faster than new ones come, also when there is never nothing else to do.
+  state_->try_to_delete(2 * (state_->last_tile - last_tile));
+  return true;
 } catch (const SQLite::Exception& error) {
+  if (is_busy(error)) return false;
   state_->refuse_to_write(error);
 }
 
@@ -95,7 +117,10 @@ void Journal::tidy() try {
   state_->in_one([&] { was_untidy = state_->delete_waste(tiles_tidied) || state_->give_back_room(); });
   state_->is_tidy = !was_untidy;
 } catch (const SQLite::Exception& error) {
-  state_->refuse_to_write(error);
+  if (is_busy(error)) return;
+  if (!is_damage(error)) state_->refuse_to_write(error);
+  state_->note_damage();
+  state_->is_tidy = true;  // what is left will be deleted when it is mended
 }
 
 void Journal::State::in_one(const std::function<void()>& changes) {
@@ -108,9 +133,12 @@ void Journal::State::in_one(const std::function<void()>& changes) {
 }
 
 void Journal::State::refuse_to_write(const SQLite::Exception& error) const {
+  if (is_damage(error)) note_damage();
   throw JournalError("the journal " + file.string() + " cannot be written: " + error.what() +
-                     (is_damage(error) ? how_to_begin_anew : what_to_do));
+                     (is_damage(error) ? what_if_damaged : what_to_do));
 }
+
+void Journal::State::note_damage() const { std::ofstream{note_of_damage(file)}; }
 
 void Journal::State::write(const JobAdded& added) {
   films[added.id] = {added.spec.settings.width, added.spec.settings.height};
@@ -161,21 +189,38 @@ void Journal::State::write(const TileCommitted& commit) {
 void Journal::State::write(const PassesLost& lost) {
   is_tidy = false;
   std::vector<std::int64_t> ids;
-  const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ?",
-                                     number_of(lost.frame.job), lost.frame.frame);
-  while (query->executeStep()) {
-    const std::int64_t id = query->getColumn(0);
-    const auto body = unseal(bytes_of(query->getColumn(1)), key_of(lost.frame, id));
-    if (!body) continue;
-    const TileCommitted commit = decode_tile(lost.frame, *body).commit;
-    for (const Work& work : lost.lost)
-      if (work.tile == commit.tile && (work.passes & commit.passes)) ids.push_back(id);
-  }
+  as_far_as_sound([&] {
+    const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ?",
+                                       number_of(lost.frame.job), lost.frame.frame);
+    while (query->executeStep()) {
+      const std::int64_t id = query->getColumn(0);
+      const auto body = unseal(bytes_of(query->getColumn(1)), key_of(lost.frame, id));
+      if (!body) continue;
+      const TileCommitted commit = decode_tile(lost.frame, *body).commit;
+      for (const Work& work : lost.lost)
+        if (work.tile == commit.tile && (work.passes & commit.passes)) ids.push_back(id);
+    }
+  });
   for (const std::int64_t id : ids) {
-    database.run("DELETE FROM pixels WHERE id = ?", id);
-    database.run("DELETE FROM tiles WHERE job = ? AND frame = ? AND id = ?", number_of(lost.frame.job),
-                 lost.frame.frame, id);
+    as_far_as_sound([&] { database.run("DELETE FROM pixels WHERE id = ?", id); });
+    as_far_as_sound([&] {
+      database.run("DELETE FROM tiles WHERE job = ? AND frame = ? AND id = ?", number_of(lost.frame.job),
+                   lost.frame.frame, id);
+    });
   }
+}
+
+/// What is left undone on a damaged page is no reason to refuse the rest.
+void Journal::State::as_far_as_sound(const std::function<void()>& changes) {
+  database.run("SAVEPOINT sound");
+  try {
+    changes();
+  } catch (const SQLite::Exception& error) {
+    database.run("ROLLBACK TO sound");
+    if (!is_damage(error)) throw;
+    note_damage();
+  }
+  database.run("RELEASE sound");
 }
 
 void Journal::State::write(const JobChanged& changed) {
@@ -257,6 +302,14 @@ bool Journal::State::delete_waste(std::int64_t tiles) {
     if (tiles-- > 0) database.run("DELETE FROM waste WHERE job = ? AND frame = ?", job, frame);
   }
   return was_there;
+}
+
+void Journal::State::try_to_delete(std::int64_t tiles) {
+  try {
+    if (tiles > 0 && has_waste()) in_one([&] { delete_waste(tiles); });
+  } catch (const SQLite::Exception&) {
+    // tidy() will see it, too, and say so.
+  }
 }
 
 void Journal::State::write(const WorkerNamed& named) {

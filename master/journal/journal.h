@@ -3,7 +3,8 @@
 // What write() has written survives the end of the process at any instant; what is older than 100 ms also that of the
 // power, as a thread of the journal's own syncs the write-ahead log. Scenes and assets are kept once, by hash; pixels
 // compressed; both, and every row that a picture depends on, with a checksum: what is damaged is left out, never taken
-// for sound. A log that lost its end is noticed, too. What the farm drops is deleted bit by bit, as a large
+// for sound. A log that lost its end is noticed, too. A file that is damaged as such is mended when it is opened: what can
+// be read is written anew. What the farm drops is deleted bit by bit, as a large
 // picture takes seconds, and its place is used again. Where more than a third of the file is free, it is made smaller
 // (one that was made before rayfarm did so keeps its size).
 //
@@ -44,8 +45,9 @@ class Journal {
   };
   Opened read();
 
-  /// All of them or, when it throws JournalError, none: to be written again later.
-  void write(std::span<const FarmRecord> records);
+  /// All of them or, when it throws JournalError, none: to be written again later. False: none, as the log is just being
+  /// emptied; that takes as long as the disk is slow.
+  [[nodiscard]] bool write(std::span<const FarmRecord> records);
   /// Returns when all that was written survives also the end of the power, or why it does not. From any thread.
   std::optional<std::string> until_synced();
   /// A few milliseconds of what is left to do when nothing else is: deleting, making the file smaller. Called ten times a
@@ -53,8 +55,11 @@ class Journal {
   void tidy();
 
  private:
+  void mend();
+
   struct State;
   std::unique_ptr<State> state_;
+  std::optional<std::filesystem::path> mended_;  // where the damaged one is
 };
 
 }  // namespace rayfarm

@@ -15,30 +15,47 @@ std::string name_of_job(JobId id) { return "job " + std::to_string(number_of(id)
 
 Journal::Opened Journal::read() try {
   Opened opened;
-  State& state = *state_;
-  opened.past.life = static_cast<std::uint32_t>(state.lives);
-  opened.is_cut = state.lost_writes > 0;
+  try {
+    opened = state_->read();
+  } catch (const SQLite::Exception& error) {
+    if (!is_damage(error) || mended_) throw;
+    mend();
+    opened = state_->read();
+  }
+  if (mended_)
+    opened.warnings.insert(opened.warnings.begin(),
+                           "the journal " + state_->file.string() +
+                               " was damaged on the disk: what can be read of it was written anew, the "
+                               "damaged one is " +
+                               mended_->string());
+  return opened;
+} catch (const SQLite::Exception& error) {
+  throw JournalError("the journal " + state_->file.string() + " cannot be read: " + error.what() +
+                     what_to_do_at_start(error));
+}
+
+Journal::Opened Journal::State::read() {
+  Opened opened;
+  opened.past.life = static_cast<std::uint32_t>(lives);
+  opened.is_cut = lost_writes > 0;
   if (opened.is_cut)
-    opened.warnings.push_back("the end of the journal " + state.file.string() +
-                              " was damaged on the disk: the last " + std::to_string(state.lost_writes) +
+    opened.warnings.push_back("the end of the journal " + file.string() +
+                              " was damaged on the disk: the last " + std::to_string(lost_writes) +
                               " writes are lost; jobs that are missing must be submitted again");
-  state.read_workers(opened);
-  const Query last = state.database.query("SELECT seq FROM sqlite_sequence WHERE name = 'jobs'");
+  read_workers(opened);
+  const Query last = database.query("SELECT seq FROM sqlite_sequence WHERE name = 'jobs'");
   if (last->executeStep()) add(opened, JobDropped{static_cast<JobId>(last->getColumn(0).getInt64())});
 
   std::vector<JobId> jobs;
-  const Query query = state.database.query("SELECT id, crashes FROM jobs ORDER BY id");
+  const Query query = database.query("SELECT id, crashes FROM jobs ORDER BY id");
   while (query->executeStep()) {
     jobs.push_back(static_cast<JobId>(query->getColumn(0).getInt64()));
     if (query->getColumn(1).getInt() >= 2) opened.suspects.push_back(jobs.back());
   }
-  for (const JobId job : jobs) state.read_job(opened, job);
-  state.blobs.clear();
-  opened.past.read_pixels = [&state](FrameId id, const auto& put) { state.read_pixels(id, put); };
+  for (const JobId job : jobs) read_job(opened, job);
+  blobs.clear();
+  opened.past.read_pixels = [this](FrameId id, const auto& put) { read_pixels(id, put); };
   return opened;
-} catch (const SQLite::Exception& error) {
-  throw JournalError("the journal " + state_->file.string() + " cannot be read: " + error.what() +
-                     "; move it away to begin with an empty farm, or choose another folder with --state");
 }
 
 void Journal::State::read_workers(Opened& opened) {
@@ -116,7 +133,7 @@ void Journal::State::read_frame(Opened& opened, FrameId id) {
   if (dropped) add(opened, *dropped);
 }
 
-void Journal::State::read_tiles(Opened& opened, FrameId id) try {
+void Journal::State::read_tiles(Opened& opened, FrameId id) {
   const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ? ORDER BY id",
                                      number_of(id.job), id.frame);
   std::size_t damaged = 0;
@@ -139,8 +156,6 @@ void Journal::State::read_tiles(Opened& opened, FrameId id) try {
   if (damaged > 0)
     opened.warnings.push_back("of " + name_of_job(id.job) + " the records of " + std::to_string(damaged) +
                               " tiles were damaged on the disk");
-} catch (const SQLite::Exception& error) {
-  opened.warnings.push_back("of " + name_of_job(id.job) + " not all tiles can be read: " + error.what());
 }
 
 SharedBytes Journal::State::read_blob(Opened& opened, const std::string& hash) {
@@ -176,12 +191,14 @@ void Journal::State::read_pixels(FrameId id, const std::function<void(const Tile
       continue;
     } catch (const SQLite::Exception& error) {
       if (!is_damage(error)) throw;
+      note_damage();
       continue;  // pages of these pixels are damaged
     }
     put(commit);
   }
 } catch (const SQLite::Exception& error) {
-  if (!is_damage(error)) throw;  // else what cannot be read is missing
+  if (!is_damage(error)) throw;
+  note_damage();  // what cannot be read is missing
 }
 
 }  // namespace rayfarm

@@ -43,6 +43,9 @@ struct Journal::State {
   /// All of the changes or, when it throws, none.
   void in_one(const std::function<void()>& changes);
   [[noreturn]] void refuse_to_write(const SQLite::Exception& error) const;
+  void note_damage() const;
+  /// Within in_one(): changes that a damaged page may keep from being made.
+  void as_far_as_sound(const std::function<void()>& changes);
   void write(const JobAdded& added);
   void write(const FrameAdded& added);
   void write(const FrameStarted& started);
@@ -65,8 +68,10 @@ struct Journal::State {
   void drop_tiles(FrameId id);
   /// At most so many of those that were dropped, and pictures. False: there are none.
   bool delete_waste(std::int64_t tiles);
+  void try_to_delete(std::int64_t tiles);
 
   // Reading.
+  Opened read();
   void read_workers(Opened& opened);
   void read_job(Opened& opened, JobId id);
   void read_frame(Opened& opened, FrameId id);

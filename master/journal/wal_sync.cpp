@@ -27,17 +27,6 @@ struct WriteLost : std::runtime_error {
 
 std::filesystem::path log_of(const std::filesystem::path& journal) { return journal.string() + "-wal"; }
 
-/// Closing it drops no lock: SQLite locks the other two of its files.
-void sync_file(const std::filesystem::path& file) {
-  const int opened = open(file.c_str(), O_RDWR | O_CLOEXEC);
-  if (opened < 0 && errno == ENOENT) return;
-  if (opened < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
-  const bool is_synced = fdatasync(opened) == 0;
-  const int error = errno;
-  close(opened);
-  if (!is_synced) throw WriteLost(file.string() + ": " + std::strerror(error));
-}
-
 std::filesystem::path mark_of(const std::filesystem::path& journal) { return journal.string() + "-mark"; }
 
 /// Twice, so that a mark that was not written whole is none.
@@ -51,14 +40,28 @@ void put_mark(const std::filesystem::path& journal, std::int64_t writes) {
   if (!is_put) throw std::runtime_error(file.string() + ": " + std::strerror(error));
 }
 
-/// That somebody else reads or writes is no fault: the next time will do. A statement, since sqlite3_wal_checkpoint_v2() does
-/// nothing in a connection that has not read yet, and says that all is well.
-void empty_log(const std::filesystem::path& journal, const char* how) {
+/// False: somebody else reads or writes, the next time will do. A statement, since sqlite3_wal_checkpoint_v2() does nothing
+/// in a connection that has not read yet, and says that all is well.
+bool empty_log(const std::filesystem::path& journal, const char* how) {
   SQLite::Database database(journal.string(), SQLite::OPEN_READWRITE, journal_patience_ms);
-  SQLite::Statement(database, std::string("PRAGMA wal_checkpoint(") + how + ")").executeStep();
+  SQLite::Statement checkpoint(database, std::string("PRAGMA wal_checkpoint(") + how + ")");
+  checkpoint.executeStep();
+  const bool is_busy = checkpoint.getColumn(0).getInt() != 0;
+  return !is_busy;
 }
 
 }  // namespace
+
+/// Closing it drops no lock: SQLite locks the other two of its files.
+void sync_to_disk(const std::filesystem::path& file) {
+  const int opened = open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (opened < 0 && errno == ENOENT) return;
+  if (opened < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
+  const bool is_synced = fdatasync(opened) == 0;
+  const int error = errno;
+  close(opened);
+  if (!is_synced) throw WriteLost(file.string() + ": " + std::strerror(error));
+}
 
 std::int64_t marked_writes(const std::filesystem::path& journal) {
   std::array<std::int64_t, 2> mark{};
@@ -140,7 +143,15 @@ void WalSync::try_to_sync(std::unique_lock<std::mutex>& lock) {
 }
 
 void WalSync::sync(Written written) {
-  sync_file(log_of(journal_));
+  try {
+    sync_to_disk(log_of(journal_));
+  } catch (const WriteLost&) {
+    has_hole_ = true;
+    throw;
+  }
+  if (has_hole_ && !empty_log(journal_, "TRUNCATE"))
+    throw std::runtime_error(journal_.string() + ": the log has a hole and is being read");
+  has_hole_ = false;
   put_mark(journal_, written.writes);
   if (written.log_size < large_log) return;
   empty_log(journal_, "PASSIVE");

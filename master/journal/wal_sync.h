@@ -14,6 +14,9 @@
 
 namespace rayfarm {
 
+/// Nothing when there is no such file. Throws std::runtime_error when it is not on the disk now.
+void sync_to_disk(const std::filesystem::path& file);
+
 /// How many writes were synced; 0 when nobody knows.
 std::int64_t marked_writes(const std::filesystem::path& journal);
 
@@ -51,6 +54,7 @@ class WalSync {
   std::int64_t synced_ = 0;                // writes
   std::int64_t asked_ = 0, answered_ = 0;  // tries that are not to wait
   bool is_ending_ = false;
+  bool has_hole_ = false;  // the log, where the disk lost a write: what follows would not be read again
   std::optional<std::string> fault_;  // of the last try
   std::optional<std::string> loss_;   // not told yet
   std::thread thread_;

@@ -15,7 +15,11 @@ void fuzz(ByteView bytes) {
     const Journal::Opened opened = journal.read();
     Farm farm(FarmLimits{}, opened.past, opened.latest);
     for (const JobView& job : farm.jobs(opened.latest)) farm.film(job.id);
-    journal.write(farm.take_records());
+    for (const auto records = farm.take_records(); !journal.write(records);) {}
+    for (const JobView& job : farm.jobs(opened.latest))
+      farm.resume(job.id, opened.latest), farm.remove(job.id);
+    for (const auto records = farm.take_records(); !journal.write(records);) {}
+    journal.tidy();
   } catch (const JournalError&) {}
 }
 

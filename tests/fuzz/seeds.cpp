@@ -153,7 +153,7 @@ void write_journal() {
                                           {FrameStarted{frame, FarmTime(6)}},
                                           {commit()},
                                           {JobChanged{JobId{7}, JobState::running, 50, "", "monday", 0, {}}}};
-    journal.write(records);
+    while (!journal.write(records)) {}
   }
   SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
   for (const char* smaller : {"PRAGMA journal_mode = DELETE", "PRAGMA page_size = 512", "VACUUM"})

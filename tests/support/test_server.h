@@ -22,9 +22,11 @@ inline MasterDoor lone_master() {
 
 class TestServer {
  public:
-  explicit TestServer(OnFarm on_farm, HttpSettings settings = {.listen = "127.0.0.1:0"},
-                      MasterDoor master = lone_master(), Access* access = nullptr)
-      : door_(std::move(on_farm)),
+  explicit TestServer(
+      OnFarm on_farm, HttpSettings settings = {.listen = "127.0.0.1:0"}, MasterDoor master = lone_master(),
+      Access* access = nullptr, UntilSynced until_synced = [] { return std::nullopt; })
+      : door_(
+            std::move(on_farm), [](const Told& told) { told({}); }, std::move(until_synced)),
         master_(std::move(master)),
         server_(std::move(settings), {.farm = door_,
                                       .feeder = feeder_,

@@ -38,7 +38,9 @@ class Api : public testing::Test {
   }
 
   FarmThread farm;
-  FarmDoor door{[this](FarmThread::Task task) { farm.post(std::move(task)); }};
+  UntilSynced until_synced = [] { return std::nullopt; };
+  FarmDoor door{[this](FarmThread::Task task) { farm.post(std::move(task)); },
+                [](const Told& told) { told({}); }, [this] { return until_synced(); }};
   FrameFeeder feeder{door};
   Diagnostics diagnostics{1};
   MasterDoor master = lone_master();

@@ -87,6 +87,16 @@ TEST_F(Api, TheFramesOfAScriptAreEvaluatedByTheMaster) {
   EXPECT_EQ(still["settings"]["frame"], 3);
 }
 
+TEST_F(Api, TheFramesOfAScriptComeAlsoWhenItsOrderIsNotOnTheDiskYet) {
+  farm.add_renderer("pc1");
+  until_synced = [] { return "the disk is slow"; };
+  const json wish{{"script", "return scene{ root = sphere{}, animation = { stop = 2, fps = 2 } }"},
+                  {"frames", {{"first", 0u}, {"last", 3u}}},
+                  {"settings", {{"width", 16u}, {"height", 8u}, {"spp", 1u}}}};
+  EXPECT_EQ(post("/api/v1/jobs", wish).status, 507u);
+  wait_until_done("1");
+}
+
 TEST_F(Api, AScriptThatFailsInALaterFrameFailsItsJobAndSaysWhich) {
   const json wish = {
       {"script", "return scene{ root = sphere{}:scale(2 - time), animation = { stop = 3, fps = 1 } }"},

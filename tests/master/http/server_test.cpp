@@ -96,6 +96,26 @@ TEST_F(Server, ServesAPageThatMayLoadNothingFromElsewhere) {
 }
 
 // Asked for again and again until there is more to say, it would keep its asker for 30 s.
+TEST_F(Server, LetsNobodyWaitWhoOnlyLooksWhileOrdersWaitForTheDisk) {
+  std::counting_semaphore<> waiting{0}, disk{0};
+  TestServer slow(door_to(farm), {.listen = "127.0.0.1:0"}, lone_master(), nullptr,
+                  [&]() -> std::optional<std::string> {
+                    waiting.release();
+                    disk.acquire();
+                    return std::nullopt;
+                  });
+  const auto order = [&] {
+    EXPECT_EQ(send({"POST", slow.url(), "/api/v1/jobs/1/pause", "{}"}).status, 200u);
+  };
+  farm.run([](Farm& f, FarmTime now) { f.submit(small_job(), now); });
+  {
+    const std::jthread first(order), second(order);
+    waiting.acquire(), waiting.acquire();  // at once
+    EXPECT_EQ(send({"GET", slow.url(), "/api/v1/jobs", ""}).status, 200u);
+    disk.release(2);
+  }
+}
+
 TEST_F(Server, AJobThatIsNotThereIsNotWaitedFor) {
   std::uint64_t revision = 0;
   farm.run([&](Farm& f, FarmTime) { revision = f.revision(); });

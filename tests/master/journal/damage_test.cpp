@@ -109,6 +109,62 @@ TEST(DamagedJournal, NoticesThatItsLogLostItsEnd) {
   EXPECT_FALSE(kept.opened().is_cut) << "it is told once";
 }
 
+/// What a farm of today makes of the journal: a job anew, and all that is left done, as often as it must be started again.
+void work_on(KeptFarm& kept, int starts) {
+  for (int start = 0;; ++start) try {
+      ASSERT_LE(start, starts) << "it goes on for ever";
+      if (start > 0) kept.close(), kept.open(10s);
+      for (const JobView& job : kept.farm().jobs(10s)) kept.farm().film(job.id);
+      kept.keep();
+      for (const JobView& job : kept.farm().jobs(10s)) kept.farm().resume(job.id, 10s);
+      const JobId added = kept.farm().submit(job_of(four_tiles), 10s);
+      FakeWorker(kept.farm(), {.name = "pc"}, 10s).finish_all(11s);
+      kept.keep();
+      kept.farm().remove(added);
+      kept.keep(), kept.keep();
+      return;
+    } catch (const JournalError&) {}
+}
+
+TEST(DamagedJournal, GoesOnWhateverPageOfItsFileIsDamaged) {
+  constexpr Size picture{384, 384};
+  constexpr std::size_t page_size = 4096;
+  std::vector<std::size_t>
+      worst;  // pages with which more than one picture went: those that list all jobs and frames
+  // All of the tables' first pages, and of their leaves some: most of them are pixels.
+  for (std::size_t page = 1, pages = 2; page < pages; page += page < 24 ? 1 : 5) {
+    SCOPED_TRACE("page " + std::to_string(page + 1));
+    KeptFarm kept;
+    FakeWorker pc(kept.farm(), {.name = "pc"}, 1s);
+    std::vector<JobId> jobs;
+    for (int i = 0; i < 3; ++i) {
+      jobs.push_back(kept.farm().submit(job_of(picture), 1s));
+      pc.finish_all(2s);
+      kept.keep();
+    }
+    kept.close();
+    std::string bytes = content_of(kept.file());
+    pages = bytes.size() / page_size;
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(page * page_size), page_size, '\0');
+    put_content(kept.file(), bytes);
+
+    kept.open(10s);
+    work_on(kept, 2);
+    kept.close(), kept.open(20s);
+    std::size_t whole = 0;
+    for (const JobId job : jobs) {
+      if (!kept.farm().job(job, 20s)) continue;
+      const auto film = kept.farm().film(job);
+      whole += film && film->is_complete() && film->rgb() == made_up_picture(job, picture);
+    }
+    if (whole < 2) worst.push_back(page);
+    kept.close(), kept.open(30s);
+    for (const std::string& warning : kept.opened().warnings)
+      EXPECT_EQ(warning, "the scene or asset scene was damaged on the disk") << "the rest is mended";
+  }
+  EXPECT_LE(worst.size(), 2u) << testing::PrintToString(worst);
+}
+
 TEST(DamagedJournal, NeverShowsAWrongPixelWhateverBytesAreWrong) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);

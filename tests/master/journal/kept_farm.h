@@ -26,7 +26,9 @@ class KeptFarm {
     write();
     journal_->tidy();
   }
-  void write() { journal_->write(farm_->take_records()); }
+  void write() {
+    for (const auto records = farm_->take_records(); !journal_->write(records);) {}
+  }
   /// What was not kept is gone. The files are moved as they are: nobody closes them, as when the process is killed.
   void crash(const std::function<void(std::string& log)>& damage = {}) {
     std::filesystem::create_directory(folder_ / "after");

@@ -94,6 +94,45 @@ TEST_F(LiveFarmTest, WaitsUntilWhatIsKeptIsSynced) {
   }
 }
 
+TEST_F(LiveFarmTest, SaysThatAnOrderIsNotKeptHoweverOftenItIsGivenUntilItIs) {
+  LiveFarm live;
+  live.open(journal());
+  const auto fault = [&] {
+    live.apply([](Farm& farm, FarmTime now) {
+      JobSpec same = job_of(four_tiles);
+      same.key = "mine";
+      return farm.submit(std::move(same), now);
+    });
+    live.keep();
+    return live.until_synced();
+  };
+  {
+    const FullDisk full;
+    EXPECT_TRUE(fault());
+    EXPECT_TRUE(fault()) << "nothing is new, but it is not on the disk";
+  }
+  for (int tick = 0; tick < 10; ++tick) live.tick();
+  EXPECT_EQ(fault(), std::nullopt) << "there is room again, which a tick sees";
+}
+
+TEST_F(LiveFarmTest, WaitsForAJournalThatIsAtSomethingElse) {
+  LiveFarm live;
+  live.open(journal());
+  const JobId job = submit(live);
+  bool is_told = false;
+  live.once_kept([&](const auto& fault) { is_told = !fault; });
+  {
+    SQLite::Database other(journal().string(), SQLite::OPEN_READWRITE, 60'000);
+    const SQLite::Transaction writing(other, SQLite::TransactionBehavior::IMMEDIATE);
+    live.keep(), live.tick(), live.keep();
+    EXPECT_FALSE(is_told);
+    EXPECT_EQ(view(live, job).state, JobState::waiting);
+  }
+  live.tick();
+  EXPECT_TRUE(is_told);
+  EXPECT_EQ(view(live, job).state, JobState::waiting);
+}
+
 TEST_F(LiveFarmTest, WritesAllChangesOfOneTurnAtItsEnd) {
   LiveFarm live;
   live.open(journal());
