@@ -88,8 +88,10 @@ void Journal::State::set_fact(const char* name, std::int64_t value) {
 bool Journal::write(std::span<const FarmRecord> records) try {
   if (const auto fault = state_->sync.take_fault())
     throw JournalError("the journal cannot be synced: " + *fault + what_to_do);
+  for (const FarmRecord& record : records)
+    if (const auto* lost = std::get_if<PassesLost>(&record.fact)) state_->forget(*lost);
   const auto workers = state_->workers;
-  const std::int64_t last_tile = state_->last_tile;
+  const std::int64_t last_tile = state_->tile_before = state_->last_tile;
   try {
     state_->in_one([&] {
       for (const FarmRecord& record : records)
@@ -187,40 +189,43 @@ void Journal::State::write(const TileCommitted& commit) {
 }
 
 void Journal::State::write(const PassesLost& lost) {
+  std::vector<std::int64_t> ids;
+  find_lost(lost, tile_before, ids);
+  for (const std::int64_t id : ids) delete_tile(lost.frame, id);
+}
+
+void Journal::State::forget(const PassesLost& lost) {
   is_tidy = false;
   std::vector<std::int64_t> ids;
-  as_far_as_sound([&] {
-    const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ?",
-                                       number_of(lost.frame.job), lost.frame.frame);
-    while (query->executeStep()) {
-      const std::int64_t id = query->getColumn(0);
-      const auto body = unseal(bytes_of(query->getColumn(1)), key_of(lost.frame, id));
-      if (!body) continue;
-      const TileCommitted commit = decode_tile(lost.frame, *body).commit;
-      for (const Work& work : lost.lost)
-        if (work.tile == commit.tile && (work.passes & commit.passes)) ids.push_back(id);
-    }
-  });
-  for (const std::int64_t id : ids) {
-    as_far_as_sound([&] { database.run("DELETE FROM pixels WHERE id = ?", id); });
-    as_far_as_sound([&] {
-      database.run("DELETE FROM tiles WHERE job = ? AND frame = ? AND id = ?", number_of(lost.frame.job),
-                   lost.frame.frame, id);
-    });
+  as_far_as_sound([&] { find_lost(lost, 0, ids); });
+  for (const std::int64_t id : ids) as_far_as_sound([&] { delete_tile(lost.frame, id); });
+}
+
+void Journal::State::find_lost(const PassesLost& lost, std::int64_t after, std::vector<std::int64_t>& ids) {
+  const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ? AND id > ?",
+                                     number_of(lost.frame.job), lost.frame.frame, after);
+  while (query->executeStep()) {
+    const std::int64_t id = query->getColumn(0);
+    const auto body = unseal(bytes_of(query->getColumn(1)), key_of(lost.frame, id));
+    if (!body) continue;
+    const TileCommitted commit = decode_tile(lost.frame, *body).commit;
+    for (const Work& work : lost.lost)
+      if (work.tile == commit.tile && (work.passes & commit.passes)) ids.push_back(id);
   }
 }
 
-/// What is left undone on a damaged page is no reason to refuse the rest.
-void Journal::State::as_far_as_sound(const std::function<void()>& changes) {
-  database.run("SAVEPOINT sound");
-  try {
-    changes();
-  } catch (const SQLite::Exception& error) {
-    database.run("ROLLBACK TO sound");
-    if (!is_damage(error)) throw;
-    note_damage();
-  }
-  database.run("RELEASE sound");
+/// Without its record nobody reads the pixels.
+void Journal::State::delete_tile(FrameId frame, std::int64_t id) {
+  database.run("DELETE FROM tiles WHERE job = ? AND frame = ? AND id = ?", number_of(frame.job), frame.frame,
+               id);
+  database.run("DELETE FROM pixels WHERE id = ?", id);
+}
+
+void Journal::State::as_far_as_sound(const std::function<void()>& changes) const try {
+  changes();
+} catch (const SQLite::Exception& error) {
+  if (!is_damage(error)) throw;
+  note_damage();
 }
 
 void Journal::State::write(const JobChanged& changed) {

@@ -27,11 +27,11 @@ struct Journal::State {
   std::map<std::string, std::int64_t> workers;       // ids by name; 0: none of them
   std::map<std::int64_t, std::string> worker_names;  // the reverse
   std::map<JobId, Size> films;                       // of the jobs that were read
-  std::int64_t last_tile = 0;
-  std::int64_t writes = 0;       // transactions
-  std::int64_t lives = 0;        // this one too
-  std::int64_t lost_writes = 0;  // that were synced once, and are gone
-  bool is_tidy = false;          // nothing was left to do, and nothing was dropped since
+  std::int64_t last_tile = 0, tile_before = 0;       // the latter of the writes before this one
+  std::int64_t writes = 0;                           // transactions
+  std::int64_t lives = 0;                            // this one too
+  std::int64_t lost_writes = 0;                      // that were synced once, and are gone
+  bool is_tidy = false;                              // nothing was left to do, and nothing was dropped since
   WalSync sync;
 
   /// A crash is counted against those that were live.
@@ -44,8 +44,12 @@ struct Journal::State {
   void in_one(const std::function<void()>& changes);
   [[noreturn]] void refuse_to_write(const SQLite::Exception& error) const;
   void note_damage() const;
-  /// Within in_one(): changes that a damaged page may keep from being made.
-  void as_far_as_sound(const std::function<void()>& changes);
+  /// Not within in_one(): SQLite refuses all of a transaction that met damage.
+  void as_far_as_sound(const std::function<void()>& changes) const;
+  /// Of the tiles that are lost, those of earlier writes. What stays as its page is damaged is lost at the next start.
+  void forget(const PassesLost& lost);
+  void find_lost(const PassesLost& lost, std::int64_t after, std::vector<std::int64_t>& ids);
+  void delete_tile(FrameId frame, std::int64_t id);
   void write(const JobAdded& added);
   void write(const FrameAdded& added);
   void write(const FrameStarted& started);
