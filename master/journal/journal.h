@@ -58,6 +58,7 @@ class Journal {
   void mend();
 
   struct State;
+  const std::filesystem::path file_;
   std::unique_ptr<State> state_;
   std::optional<std::filesystem::path> mended_;  // where the damaged one is
 };

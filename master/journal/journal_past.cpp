@@ -24,13 +24,13 @@ Journal::Opened Journal::read() try {
   }
   if (mended_)
     opened.warnings.insert(opened.warnings.begin(),
-                           "the journal " + state_->file.string() +
+                           "the journal " + file_.string() +
                                " was damaged on the disk: what can be read of it was written anew, the "
                                "damaged one is " +
                                mended_->string());
   return opened;
 } catch (const SQLite::Exception& error) {
-  throw JournalError("the journal " + state_->file.string() + " cannot be read: " + error.what() +
+  throw JournalError("the journal " + file_.string() + " cannot be read: " + error.what() +
                      what_to_do_at_start(error));
 }
 

@@ -103,7 +103,9 @@ fs::path salvage(const fs::path& journal) {
   }  // both logs are in their files then, and gone
   remove_all_of(kept);
   if (fs::exists(journal.string() + "-wal")) fs::rename(journal.string() + "-wal", kept.string() + "-wal");
-  fs::create_hard_link(journal, kept);
+  std::error_code not_here;
+  fs::create_hard_link(journal, kept, not_here);
+  if (not_here) fs::copy_file(journal, kept);
   sync_to_disk(made);
   fs::rename(made, journal);
   fs::remove(note_of_damage(journal));
