@@ -13,7 +13,8 @@ namespace rayfarm {
 namespace {
 
 constexpr int ticks_between_tries = 10;  // of a journal that cannot be written: a second
-constexpr std::chrono::milliseconds glance{10};
+constexpr int ticks_late = 50;           // of a journal that is at something else: 5 s
+constexpr std::chrono::milliseconds a_tick{100};
 
 std::uint64_t drawn() {
   std::random_device random;
@@ -59,7 +60,7 @@ LiveFarm::~LiveFarm() {
   do {
     is_late_ = false;
     keep();
-    if (is_late_) std::this_thread::sleep_for(glance);
+    if (is_late_) std::this_thread::sleep_for(a_tick);
   } while (is_late_);
 }
 
@@ -116,8 +117,15 @@ void LiveFarm::tidy() try {
 std::optional<std::string> LiveFarm::write() {
   std::optional<std::string> fault;
   try {
-    is_late_ = !journal_->write(unwritten_);
-    if (is_late_) return std::nullopt;
+    if (!journal_->write(unwritten_)) {
+      is_late_ = ++late_ < ticks_late;
+      if (is_late_) return std::nullopt;
+      throw JournalError(
+          "another program has had the journal locked for seconds (a backup, a shell), or its disk hangs; "
+          "end "
+          "that, then resume the job");
+    }
+    late_ = 0;
     unwritten_.clear();
     is_writable_ = true;
     if (std::exchange(tried_, 0) != 0)
@@ -126,7 +134,7 @@ std::optional<std::string> LiveFarm::write() {
     fault = error.what();
     if (tried_ == 0) note({true, *fault, {}});
     pause_all(*fault);
-    tried_ = unwritten_.size(), ticks_ = 0;
+    tried_ = unwritten_.size(), ticks_ = late_ = 0;
     is_writable_ = false;
   }
   const std::lock_guard lock(mutex_);

@@ -78,6 +78,7 @@ class LiveFarm {
   std::size_t tried_ = 0;    // so many of them could not be written
   int ticks_ = 0;            // since then
   bool is_late_ = false;     // the journal was at something else
+  int late_ = 0;             // for so many tries
   bool is_writable_ = true;  // no failure since the last write
   std::string untidy_;       // what was said last of why nothing can be deleted
   std::function<void()> when_changed_ = [] {};

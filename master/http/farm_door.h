@@ -68,9 +68,12 @@ class FarmDoor {
       }
     });
     const auto deadline = std::chrono::steady_clock::now() + patience;
-    while (answer.wait_for(glance) != std::future_status::ready)
-      if ((closed_ || std::chrono::steady_clock::now() > deadline) && !decided->test_and_set())
+    while (answer.wait_for(glance) != std::future_status::ready) {
+      const bool is_closed = closed_;
+      if ((is_closed || std::chrono::steady_clock::now() > deadline) && !decided->test_and_set())
         throw FarmUnavailable("the master is stopping or very busy; try again");
+      if (is_closed) throw NotKept("the master is stopping");
+    }
     try {
       return answer.get();
     } catch (const std::future_error&) {  // the closure was dropped

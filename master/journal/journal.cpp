@@ -2,7 +2,6 @@
 #include "master/journal/journal.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "master/journal/journal_state.h"
 #include "master/journal/salvage.h"
@@ -13,24 +12,15 @@ namespace {
 constexpr auto what_to_do = "; make room there or mend the disk, then resume the job";
 constexpr auto what_if_damaged = "; start the master again: what can be read is then written anew";
 
-std::filesystem::path salvaged(const std::filesystem::path& file) try {
-  return salvage(file);
-} catch (const SQLite::Exception&) {
-  throw;
-} catch (const std::runtime_error& error) {  // of the file system
-  throw JournalError("the journal " + file.string() + " is damaged, and cannot be mended: " + error.what() +
-                     "; make room there or mend the disk, or choose another folder with --state");
-}
-
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& file) try : file_(file) {
-  if (std::filesystem::exists(note_of_damage(file))) mended_ = salvaged(file);
+  if (wants_mending(file)) mend_file();
   state_ = std::make_unique<State>(file);
   try {
     state_->begin();
   } catch (const SQLite::Exception& error) {
-    if (!is_damage(error) || mended_) throw;
+    if (!is_damage(error) || was_mended_) throw;
     mend();
   }
 } catch (const SQLite::Exception& error) {
@@ -38,9 +28,19 @@ Journal::Journal(const std::filesystem::path& file) try : file_(file) {
                      what_to_do_at_start(error));
 }
 
+void Journal::mend_file() try {
+  salvage(file_);
+  was_mended_ = true;
+} catch (const SQLite::Exception&) {
+  throw;
+} catch (const std::runtime_error& error) {  // of the file system
+  throw JournalError("the journal " + file_.string() + " is damaged, and cannot be mended: " + error.what() +
+                     "; make room there or mend the disk, or choose another folder with --state");
+}
+
 void Journal::mend() {
   state_.reset();
-  mended_ = salvaged(file_);
+  mend_file();
   state_ = std::make_unique<State>(file_);
   state_->begin();
 }
@@ -117,12 +117,10 @@ void Journal::State::in_one(const std::function<void()>& changes) {
 }
 
 void Journal::State::refuse_to_write(const SQLite::Exception& error) const {
-  if (is_damage(error)) note_damage();
+  if (is_damage(error)) note_damage(file);
   throw JournalError("the journal " + file.string() + " cannot be written: " + error.what() +
                      (is_damage(error) ? what_if_damaged : what_to_do));
 }
-
-void Journal::State::note_damage() const { std::ofstream{note_of_damage(file)}; }
 
 void Journal::State::write(const JobAdded& added) {
   films[added.id] = {added.spec.settings.width, added.spec.settings.height};

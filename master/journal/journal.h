@@ -56,11 +56,12 @@ class Journal {
 
  private:
   void mend();
+  void mend_file();
 
   struct State;
   const std::filesystem::path file_;
   std::unique_ptr<State> state_;
-  std::optional<std::filesystem::path> mended_;  // where the damaged one is
+  bool was_mended_ = false;
 };
 
 }  // namespace rayfarm

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "master/journal/journal_state.h"
+#include "master/journal/salvage.h"
 
 namespace rayfarm {
 namespace {
@@ -18,16 +19,15 @@ Journal::Opened Journal::read() try {
   try {
     opened = state_->read();
   } catch (const SQLite::Exception& error) {
-    if (!is_damage(error) || mended_) throw;
+    if (!is_damage(error) || was_mended_) throw;
     mend();
     opened = state_->read();
   }
-  if (mended_)
+  if (was_mended_)
     opened.warnings.insert(opened.warnings.begin(),
                            "the journal " + file_.string() +
                                " was damaged on the disk: what can be read of it was written anew, the "
-                               "damaged one is " +
-                               mended_->string());
+                               "damaged one is beside it (.damaged)");
   return opened;
 } catch (const SQLite::Exception& error) {
   throw JournalError("the journal " + file_.string() + " cannot be read: " + error.what() +
@@ -95,7 +95,11 @@ void Journal::State::read_job(Opened& opened, JobId id) {
     status = decode_change(id, *sealed);
   opened.latest = std::max({opened.latest, job.submitted, status.ended.value_or(FarmTime{})});
   add(opened, std::move(job));
-  for (std::uint32_t place = 0; place < frames.count(); ++place) read_frame(opened, {id, frames.at(place)});
+  const Query last = database.query("SELECT max(frame) FROM frames WHERE job = ?", number_of(id));
+  const std::int64_t known =
+      last->executeStep() && !last->isColumnNull(0) ? last->getColumn(0).getInt64() : -1;
+  for (std::uint32_t place = 0; place < frames.count() && frames.at(place) <= known; ++place)
+    read_frame(opened, {id, frames.at(place)});
   add(opened, std::move(status));
 }
 
@@ -103,8 +107,8 @@ void Journal::State::read_frame(Opened& opened, FrameId id) {
   const Query query =
       database.query("SELECT body, has_scene, started, dropped FROM frames WHERE job = ? AND frame = ?",
                      number_of(id.job), id.frame);
-  if (!query->executeStep()) return;
   FrameAdded frame{id, "", nullptr, {}};
+  if (!query->executeStep()) return add(opened, std::move(frame));  // lost, but later ones are there
   const auto body = unseal(bytes_of(query->getColumn(0)), key_of(id));
   const FrameRow row = body ? decode_frame(*body) : FrameRow{};
   frame.scene_hash = row.scene_hash;
@@ -191,14 +195,14 @@ void Journal::State::read_pixels(FrameId id, const std::function<void(const Tile
       continue;
     } catch (const SQLite::Exception& error) {
       if (!is_damage(error)) throw;
-      note_damage();
+      note_damage(file);
       continue;  // pages of these pixels are damaged
     }
     put(commit);
   }
 } catch (const SQLite::Exception& error) {
   if (!is_damage(error)) throw;
-  note_damage();  // what cannot be read is missing
+  note_damage(file);  // what cannot be read is missing
 }
 
 }  // namespace rayfarm

@@ -43,12 +43,12 @@ struct Journal::State {
   /// All of the changes or, when it throws, none.
   void in_one(const std::function<void()>& changes);
   [[noreturn]] void refuse_to_write(const SQLite::Exception& error) const;
-  void note_damage() const;
   /// Not within in_one(): SQLite refuses all of a transaction that met damage.
-  void as_far_as_sound(const std::function<void()>& changes) const;
+  /// False: what is damaged was met, and noted.
+  bool as_far_as_sound(const std::function<void()>& changes) const;
   /// Of the tiles that are lost, those of earlier writes. What stays as its page is damaged is lost at the next start.
   void forget(const PassesLost& lost);
-  void find_lost(const PassesLost& lost, std::int64_t after, std::vector<std::int64_t>& ids);
+  void find_lost(const char* sql, const PassesLost& lost, std::int64_t after, std::vector<std::int64_t>& ids);
   void delete_tile(FrameId frame, std::int64_t id);
   void write(const JobAdded& added);
   void write(const FrameAdded& added);

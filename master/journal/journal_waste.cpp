@@ -1,6 +1,7 @@
 // Deleting: what is dropped, what is lost, and the room that is left of it.
 #include "master/journal/journal.h"
 #include "master/journal/journal_state.h"
+#include "master/journal/salvage.h"
 
 namespace rayfarm {
 namespace {
@@ -8,6 +9,10 @@ namespace {
 constexpr std::int64_t tiles_tidied = 64;   // at once: a few milliseconds
 constexpr std::int64_t spare_pages = 2048;  // 8 MB, and a third of the file, stay to be used again
 constexpr auto give_back_some = "PRAGMA incremental_vacuum(256)";  // pages: 1 MB, a few milliseconds
+
+constexpr auto tiles_after = "SELECT id, body FROM tiles WHERE job = ? AND frame = ? AND id > ?";
+constexpr auto tiles_after_from_the_end =
+    "SELECT id, body FROM tiles WHERE job = ? AND frame = ? AND id > ? ORDER BY id DESC";
 
 std::vector<std::int64_t> frames_of(Database& database, JobId job) {
   std::vector<std::int64_t> frames;
@@ -41,20 +46,22 @@ void Journal::State::write(const JobDropped& dropped) {
 
 void Journal::State::write(const PassesLost& lost) {
   std::vector<std::int64_t> ids;
-  find_lost(lost, tile_before, ids);
+  find_lost(tiles_after, lost, tile_before, ids);
   for (const std::int64_t id : ids) delete_tile(lost.frame, id);
 }
 
 void Journal::State::forget(const PassesLost& lost) {
   is_tidy = false;
   std::vector<std::int64_t> ids;
-  as_far_as_sound([&] { find_lost(lost, 0, ids); });
+  // From both ends, as far as what is damaged.
+  if (!as_far_as_sound([&] { find_lost(tiles_after, lost, 0, ids); }))
+    as_far_as_sound([&] { find_lost(tiles_after_from_the_end, lost, 0, ids); });
   for (const std::int64_t id : ids) as_far_as_sound([&] { delete_tile(lost.frame, id); });
 }
 
-void Journal::State::find_lost(const PassesLost& lost, std::int64_t after, std::vector<std::int64_t>& ids) {
-  const Query query = database.query("SELECT id, body FROM tiles WHERE job = ? AND frame = ? AND id > ?",
-                                     number_of(lost.frame.job), lost.frame.frame, after);
+void Journal::State::find_lost(const char* sql, const PassesLost& lost, std::int64_t after,
+                               std::vector<std::int64_t>& ids) {
+  const Query query = database.query(sql, number_of(lost.frame.job), lost.frame.frame, after);
   while (query->executeStep()) {
     const std::int64_t id = query->getColumn(0);
     const auto body = unseal(bytes_of(query->getColumn(1)), key_of(lost.frame, id));
@@ -72,11 +79,13 @@ void Journal::State::delete_tile(FrameId frame, std::int64_t id) {
   database.run("DELETE FROM pixels WHERE id = ?", id);
 }
 
-void Journal::State::as_far_as_sound(const std::function<void()>& changes) const try {
+bool Journal::State::as_far_as_sound(const std::function<void()>& changes) const try {
   changes();
+  return true;
 } catch (const SQLite::Exception& error) {
   if (!is_damage(error)) throw;
-  note_damage();
+  note_damage(file);
+  return false;
 }
 
 void Journal::State::drop_scene(FrameId id) {
@@ -104,7 +113,7 @@ void Journal::tidy() try {
 } catch (const SQLite::Exception& error) {
   if (is_busy(error)) return;
   if (!is_damage(error)) state_->refuse_to_write(error);
-  state_->note_damage();
+  note_damage(state_->file);
   state_->is_tidy = true;  // what is left will be deleted when it is mended
 }
 

@@ -1,5 +1,9 @@
 #include "master/journal/salvage.h"
 
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
 #include <string>
 #include <vector>
 
@@ -35,7 +39,11 @@ void put_row(SQLite::Database& to, const std::string& table, SQLite::Statement& 
     else if (column.isBlob())
       put.bind(i + 1, column.getBlob(), column.getBytes());
   }
-  put.exec();
+  try {
+    put.exec();
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() != SQLITE_CONSTRAINT) throw;  // a value that cannot have been there: damage, too
+  }
 }
 
 /// From both ends to the first page that is damaged. `where` chooses among the rows, `key` is their order.
@@ -70,8 +78,15 @@ void copy_journal(SQLite::Database& from, SQLite::Database& to) {
               "job = " + frame.getColumn(0).getString() + " AND frame = " + frame.getColumn(1).getString());
   SQLite::Statement tile(to, "SELECT id FROM tiles");
   while (tile.executeStep()) copy_rows(from, to, "pixels", {"id"}, "id = " + tile.getColumn(0).getString());
+  // Their numbers may be given again.
+  to.exec("DELETE FROM tiles WHERE id NOT IN (SELECT id FROM pixels)");
+  // What belongs to no job any more is deleted by and by.
+  to.exec("INSERT OR IGNORE INTO waste SELECT job, frame FROM frames WHERE job NOT IN (SELECT id FROM jobs)");
+  to.exec("DELETE FROM frames WHERE job NOT IN (SELECT id FROM jobs)");
+  to.exec("DELETE FROM uses WHERE job NOT IN (SELECT id FROM jobs)");
 
-  std::int64_t last = to.execAndGet("SELECT max(0, ifnull(max(job), 0)) FROM frames");
+  std::int64_t last = to.execAndGet(
+      "SELECT max((SELECT ifnull(max(id), 0) FROM jobs), (SELECT ifnull(max(job), 0) FROM waste))");
   as_far_as_sound([&] {
     SQLite::Statement known(from, "SELECT seq FROM sqlite_sequence WHERE name = 'jobs'");
     if (known.executeStep()) last = std::max(last, known.getColumn(0).getInt64());
@@ -80,36 +95,78 @@ void copy_journal(SQLite::Database& from, SQLite::Database& to) {
   to.exec("INSERT INTO sqlite_sequence VALUES ('jobs', " + std::to_string(last) + ")");
 }
 
+/// Not written yet, or all of it.
+void copy_to(const fs::path& made, const fs::path& journal) {
+  Database fresh(made);
+  fresh.sqlite().exec(
+      "PRAGMA journal_mode = DELETE");  // no second file that would have to be moved into this one
+  SQLite::Database old(journal.string(), SQLite::OPEN_READWRITE, journal_patience_ms);
+  old.execAndGet("SELECT count(*) FROM sqlite_master");  // or nothing can be read
+  SQLite::Transaction transaction(fresh.sqlite());
+  copy_journal(old, fresh.sqlite());
+  fresh.run("UPDATE facts SET value = 0 WHERE name = 'is_running'");  // it is no job's fault
+  // Where the numbers are lost with their page: no lease has a number of before, and no writes are missing.
+  fresh.sqlite().exec("UPDATE facts SET value = unixepoch() WHERE name = 'lives' AND value = 0");
+  fresh.run("UPDATE facts SET value = ? WHERE name = 'writes' AND value = 0", marked_writes(journal));
+  transaction.commit();
+}
+
 void remove_all_of(const fs::path& journal) {
-  for (const char* part : {"", "-wal", "-shm"}) fs::remove(journal.string() + part);
+  for (const char* part : {"", "-wal", "-shm", "-journal"}) fs::remove(journal.string() + part);
+}
+
+/// By a second name, which costs no room, where the file system knows such.
+void keep(const fs::path& file, const fs::path& as) {
+  if (!fs::exists(file)) return;
+  std::error_code no_links;
+  fs::create_hard_link(file, as, no_links);
+  if (no_links) fs::copy_file(file, as);
+}
+
+void keep_damaged(const fs::path& journal) {
+  const std::string name = journal.string() + ".damaged";
+  std::string kept = name;
+  for (int i = 2; fs::exists(kept); ++i) kept = name + std::to_string(i);
+  keep(journal.string() + "-wal", kept + "-wal");
+  keep(journal, kept);
+}
+
+fs::path mended(const fs::path& journal) { return journal.string() + "-mended"; }
+/// While there is this file, the one above is whole.
+fs::path note_of_mended(const fs::path& journal) { return journal.string() + "-mended-is-whole"; }
+fs::path note_of_damage(const fs::path& journal) { return journal.string() + "-is-damaged"; }
+
+void put_note(const fs::path& file) {
+  const int made = open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  if (made < 0) return;  // a disk that takes no note: the damage will be met again
+  fsync(made);
+  close(made);
 }
 
 }  // namespace
 
-fs::path note_of_damage(const fs::path& journal) { return journal.string() + "-is-damaged"; }
+void note_damage(const fs::path& journal) { put_note(note_of_damage(journal)); }
 
-fs::path salvage(const fs::path& journal) {
-  const fs::path made = journal.string() + "-mended", kept = journal.string() + ".damaged";
-  remove_all_of(made);
-  {
-    Database fresh(made);
-    SQLite::Database old(journal.string(), SQLite::OPEN_READWRITE, journal_patience_ms);
-    SQLite::Transaction transaction(fresh.sqlite());
-    copy_journal(old, fresh.sqlite());
-    fresh.run("UPDATE facts SET value = 0 WHERE name = 'is_running'");  // it is no job's fault
-    // A number of writes that is lost with its page is no loss of writes.
-    fresh.run("UPDATE facts SET value = ? WHERE name = 'writes' AND value = 0", marked_writes(journal));
-    transaction.commit();
-  }  // both logs are in their files then, and gone
-  remove_all_of(kept);
-  if (fs::exists(journal.string() + "-wal")) fs::rename(journal.string() + "-wal", kept.string() + "-wal");
-  std::error_code not_here;
-  fs::create_hard_link(journal, kept, not_here);
-  if (not_here) fs::copy_file(journal, kept);
-  sync_to_disk(made);
-  fs::rename(made, journal);
+bool wants_mending(const fs::path& journal) {
+  return fs::exists(note_of_mended(journal)) || (fs::exists(journal) && fs::exists(note_of_damage(journal)));
+}
+
+void salvage(const fs::path& journal) {
+  const fs::path made = mended(journal), is_whole = note_of_mended(journal);
+  if (!fs::exists(is_whole)) {
+    remove_all_of(made);
+    copy_to(made, journal);
+    keep_damaged(journal);
+    sync_to_disk(made);
+    put_note(is_whole);
+    if (!fs::exists(is_whole)) throw std::runtime_error(is_whole.string() + " cannot be written");
+  }
+  if (fs::exists(made)) {
+    for (const char* part : {"-wal", "-shm"}) fs::remove(journal.string() + part);  // of the old one
+    fs::rename(made, journal);
+  }
   fs::remove(note_of_damage(journal));
-  return kept;
+  fs::remove(is_whole);
 }
 
 }  // namespace rayfarm

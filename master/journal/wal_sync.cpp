@@ -15,7 +15,7 @@ namespace rayfarm {
 namespace {
 
 constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
-constexpr auto patience = std::chrono::seconds(1);         // with a disk that had a fault
+constexpr auto patience = std::chrono::milliseconds(200);  // with a disk that had a fault
 constexpr auto long_patience = std::chrono::seconds(10);   // with one that is slow
 constexpr std::int64_t large_log = 4 << 20;                // bytes: then it is moved into the file
 constexpr std::int64_t huge_log = 16 << 20;                // bytes: then writers wait until it is empty
@@ -26,6 +26,12 @@ struct WriteLost : std::runtime_error {
 };
 
 std::filesystem::path log_of(const std::filesystem::path& journal) { return journal.string() + "-wal"; }
+
+bool has_content(const std::filesystem::path& file) {
+  std::error_code missing;
+  const std::uintmax_t size = std::filesystem::file_size(file, missing);
+  return !missing && size > 0;
+}
 
 std::filesystem::path mark_of(const std::filesystem::path& journal) { return journal.string() + "-mark"; }
 
@@ -69,7 +75,8 @@ std::int64_t marked_writes(const std::filesystem::path& journal) {
   return mark[1] == ~mark[0] ? mark[0] : 0;
 }
 
-WalSync::WalSync(std::filesystem::path journal) : journal_(std::move(journal)), thread_([this] { work(); }) {}
+WalSync::WalSync(std::filesystem::path journal)
+    : journal_(std::move(journal)), has_hole_(has_content(log_of(journal_))), thread_([this] { work(); }) {}
 
 WalSync::~WalSync() {
   {
@@ -149,9 +156,12 @@ void WalSync::sync(Written written) {
     has_hole_ = true;
     throw;
   }
-  if (has_hole_ && !empty_log(journal_, "TRUNCATE"))
-    throw std::runtime_error(journal_.string() + ": the log has a hole and is being read");
-  has_hole_ = false;
+  if (has_hole_) {
+    if (!empty_log(journal_, "TRUNCATE"))
+      throw std::runtime_error(journal_.string() + ": its log has a hole, and is being read");
+    sync_to_disk(log_of(journal_));  // the end of the old one, or it may come back up to its hole
+    has_hole_ = false;
+  }
   put_mark(journal_, written.writes);
   if (written.log_size < large_log) return;
   empty_log(journal_, "PASSIVE");

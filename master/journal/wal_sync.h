@@ -54,7 +54,8 @@ class WalSync {
   std::int64_t synced_ = 0;                // writes
   std::int64_t asked_ = 0, answered_ = 0;  // tries that are not to wait
   bool is_ending_ = false;
-  bool has_hole_ = false;  // the log, where the disk lost a write: what follows would not be read again
+  bool has_hole_ =
+      false;  // the log, where the disk lost a write, or may have in another life: what follows would not be read again
   std::optional<std::string> fault_;  // of the last try
   std::optional<std::string> loss_;   // not told yet
   std::thread thread_;

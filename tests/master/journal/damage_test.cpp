@@ -165,6 +165,87 @@ TEST(DamagedJournal, GoesOnWhateverPageOfItsFileIsDamaged) {
   EXPECT_LE(worst.size(), 2u) << testing::PrintToString(worst);
 }
 
+/// One of the pages that hold this table, root first, is made of noughts.
+void damage_page_of(const std::filesystem::path& file, const std::string& table) {
+  constexpr std::size_t page_size = 4096;
+  std::size_t root = 0;
+  {
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE, patience);
+    SQLite::Statement found(database, "SELECT rootpage FROM sqlite_master WHERE name = ?");
+    found.bind(1, table);
+    found.executeStep();
+    root = static_cast<std::size_t>(found.getColumn(0).getInt());
+  }
+  std::string bytes = content_of(file);
+  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>((root - 1) * page_size), page_size, '\0');
+  put_content(file, bytes);
+}
+
+TEST(DamagedJournal, GivesNoPixelsOfAnotherJobToATileThatLostItsOwn) {
+  KeptFarm kept;
+  const JobId first = kept.farm().submit(job_of(four_tiles), 1s);
+  FakeWorker(kept.farm(), {.name = "pc"}, 1s).finish_all(2s);
+  kept.keep();
+  kept.close();
+  damage_page_of(kept.file(), "pixels");
+  kept.open(3s);  // mended
+  kept.farm().submit(job_of(four_tiles, "other", "another scene"), 4s);
+  FakeWorker(kept.farm(), {.name = "pc"}, 4s).finish_all(5s);
+  kept.keep();
+  kept.close(), kept.open(6s);
+  const auto film = kept.farm().film(first);
+  EXPECT_TRUE(!film || std::ranges::count(film->rgb(), 0.0f) == std::ssize(film->rgb()));
+}
+
+TEST(DamagedJournal, KeepsThePlacesOfFramesThatAreLost) {
+  KeptFarm kept;
+  JobSpec animation = job_of({64, 64});
+  animation.frames = FrameRange{0, 299, 1};
+  const JobId job = kept.farm().submit(animation, 1s);
+  for (std::uint32_t frame = 1; frame < 300; ++frame)
+    kept.farm().add_frame({job, frame}, animation.scene_hash, animation.scene_bytes, 1s, {});
+  FakeWorker(kept.farm(), {.name = "pc"}, 1s).finish_all(2s);
+  kept.keep();
+  kept.close();
+  {
+    SQLite::Database database(kept.file().string(), SQLite::OPEN_READWRITE, patience);
+    database.exec("DELETE FROM frames WHERE frame BETWEEN 100 AND 150");
+  }
+  kept.open(3s);
+  for (const std::uint32_t frame : {99u, 151u, 299u})
+    EXPECT_TRUE(kept.farm().film(job, frame)->rgb() == made_up_picture(job, {64, 64}, frame)) << frame;
+  kept.farm().resume(job, 4s);
+  FakeWorker(kept.farm(), {.name = "pc"}, 4s).finish_all(5s);
+  kept.keep();
+  kept.close(), kept.open(6s);
+  EXPECT_TRUE(kept.farm().job(job, 6s));
+}
+
+TEST(DamagedJournal, IsMendedOnceAndTheDamagedOneKept) {
+  KeptFarm kept;
+  kept.farm().submit(job_of(four_tiles), 1s);
+  kept.keep();
+  kept.close();
+  const std::string name = kept.file().string();
+  for (const char* damaged : {".damaged", ".damaged2"}) {
+    damage_page_of(kept.file(), "workers");
+    kept.open(2s);
+    EXPECT_EQ(kept.opened().warnings.size(), 1u);
+    EXPECT_EQ(kept.farm().jobs(2s).size(), 1u);
+    EXPECT_TRUE(std::filesystem::exists(name + damaged));
+    EXPECT_EQ(std::filesystem::status(name).permissions(), std::filesystem::perms(0600));
+    kept.close(), kept.open(3s);
+    EXPECT_TRUE(kept.opened().warnings.empty());
+    kept.close();
+  }
+  // As when the process ended between two steps: the new file is whole, the log of the old one still there.
+  std::filesystem::copy_file(name, name + "-mended");
+  put_content(name + "-mended-is-whole", "");
+  put_content(name, "what is left of the old one"), put_content(name + "-wal", "its log");
+  kept.open(4s);
+  EXPECT_EQ(kept.farm().jobs(4s).size(), 1u);
+}
+
 TEST(DamagedJournal, NeverShowsAWrongPixelWhateverBytesAreWrong) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);

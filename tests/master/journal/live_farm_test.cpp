@@ -133,6 +133,25 @@ TEST_F(LiveFarmTest, WaitsForAJournalThatIsAtSomethingElse) {
   EXPECT_EQ(view(live, job).state, JobState::waiting);
 }
 
+TEST_F(LiveFarmTest, DoesNotWaitForEverForAJournalThatSomebodyHasLocked) {
+  LiveFarm live;
+  live.open(journal());
+  const JobId job = submit(live);
+  std::optional<std::string> fault;
+  live.once_kept([&](const auto& why) { fault = why; });
+  {
+    SQLite::Database other(journal().string(), SQLite::OPEN_READWRITE, 60'000);
+    const SQLite::Transaction writing(other, SQLite::TransactionBehavior::IMMEDIATE);
+    live.keep();
+    for (int tick = 0; tick < 50 && !fault; ++tick) live.tick();
+    ASSERT_TRUE(fault);
+    EXPECT_NE(fault->find("locked"), std::string::npos);
+    EXPECT_EQ(view(live, job).state, JobState::paused);
+  }
+  for (int tick = 0; tick < 10; ++tick) live.tick();
+  EXPECT_EQ(live.until_synced(), std::nullopt);
+}
+
 TEST_F(LiveFarmTest, WritesAllChangesOfOneTurnAtItsEnd) {
   LiveFarm live;
   live.open(journal());
