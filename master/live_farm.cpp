@@ -120,10 +120,8 @@ std::optional<std::string> LiveFarm::write() {
     if (!journal_->write(unwritten_)) {
       is_late_ = ++late_ < ticks_late;
       if (is_late_) return std::nullopt;
-      throw JournalError(
-          "another program has had the journal locked for seconds (a backup, a shell), or its disk hangs; "
-          "end "
-          "that, then resume the job");
+      throw JournalError("the journal has been locked for seconds by another program, or its disk hangs" +
+                         std::string("; end that, then resume the job"));
     }
     late_ = 0;
     unwritten_.clear();

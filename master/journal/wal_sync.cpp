@@ -14,11 +14,13 @@
 namespace rayfarm {
 namespace {
 
-constexpr auto interval = std::chrono::milliseconds(100);  // of syncs
-constexpr auto patience = std::chrono::milliseconds(200);  // with a disk that had a fault
-constexpr auto long_patience = std::chrono::seconds(10);   // with one that is slow
-constexpr std::int64_t large_log = 4 << 20;                // bytes: then it is moved into the file
-constexpr std::int64_t huge_log = 16 << 20;                // bytes: then writers wait until it is empty
+constexpr auto interval = std::chrono::milliseconds(100);    // of syncs
+constexpr auto patience = std::chrono::milliseconds(200);    // with a disk that had a fault
+constexpr auto long_patience = std::chrono::seconds(10);     // with one that is slow
+constexpr int patience_with_readers_ms = 200;                // of whom the log cannot be emptied under
+constexpr auto between_emptyings = std::chrono::seconds(2);  // that did not work
+constexpr std::int64_t large_log = 4 << 20;                  // bytes: then it is moved into the file
+constexpr std::int64_t huge_log = 16 << 20;                  // bytes: then writers wait until it is empty
 
 /// The disk says so once: a file that could not be synced counts as synced the next time.
 struct WriteLost : std::runtime_error {
@@ -49,7 +51,7 @@ void put_mark(const std::filesystem::path& journal, std::int64_t writes) {
 /// False: somebody else reads or writes, the next time will do. A statement, since sqlite3_wal_checkpoint_v2() does nothing
 /// in a connection that has not read yet, and says that all is well.
 bool empty_log(const std::filesystem::path& journal, const char* how) {
-  SQLite::Database database(journal.string(), SQLite::OPEN_READWRITE, journal_patience_ms);
+  SQLite::Database database(journal.string(), SQLite::OPEN_READWRITE, patience_with_readers_ms);
   SQLite::Statement checkpoint(database, std::string("PRAGMA wal_checkpoint(") + how + ")");
   checkpoint.executeStep();
   const bool is_busy = checkpoint.getColumn(0).getInt() != 0;
@@ -76,7 +78,9 @@ std::int64_t marked_writes(const std::filesystem::path& journal) {
 }
 
 WalSync::WalSync(std::filesystem::path journal)
-    : journal_(std::move(journal)), has_hole_(has_content(log_of(journal_))), thread_([this] { work(); }) {}
+    : journal_(std::move(journal)),
+      may_have_hole_(has_content(log_of(journal_))),
+      thread_([this] { work(); }) {}
 
 WalSync::~WalSync() {
   {
@@ -156,16 +160,24 @@ void WalSync::sync(Written written) {
     has_hole_ = true;
     throw;
   }
-  if (has_hole_) {
-    if (!empty_log(journal_, "TRUNCATE"))
-      throw std::runtime_error(journal_.string() + ": its log has a hole, and is being read");
+  if ((has_hole_ || may_have_hole_) && try_to_empty()) {
     sync_to_disk(log_of(journal_));  // the end of the old one, or it may come back up to its hole
-    has_hole_ = false;
+    has_hole_ = may_have_hole_ = false;
   }
+  if (has_hole_) throw std::runtime_error(journal_.string() + ": its log has a hole, and somebody reads it");
   put_mark(journal_, written.writes);
   if (written.log_size < large_log) return;
   empty_log(journal_, "PASSIVE");
-  if (written.log_size >= huge_log) empty_log(journal_, "TRUNCATE");
+  if (written.log_size >= huge_log) try_to_empty();
+}
+
+/// Nobody can write while this waits for who reads.
+bool WalSync::try_to_empty() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_emptying_) return false;
+  const bool is_empty = empty_log(journal_, "TRUNCATE");
+  if (!is_empty) next_emptying_ = now + between_emptyings;
+  return is_empty;
 }
 
 }  // namespace rayfarm

@@ -4,6 +4,7 @@
 // SQLite takes a log as far as it is whole and says nothing of the rest. So the number of the last write that was synced
 // stands in a small file of its own, the mark: a journal that has fewer was damaged.
 #pragma once
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -44,6 +45,7 @@ class WalSync {
   void work();
   void sync(Written written);
   void try_to_sync(std::unique_lock<std::mutex>& lock);
+  bool try_to_empty();
 
   const std::filesystem::path journal_;
   std::mutex mutex_;
@@ -54,8 +56,10 @@ class WalSync {
   std::int64_t synced_ = 0;                // writes
   std::int64_t asked_ = 0, answered_ = 0;  // tries that are not to wait
   bool is_ending_ = false;
-  bool has_hole_ =
-      false;  // the log, where the disk lost a write, or may have in another life: what follows would not be read again
+  // Of the thread alone.
+  bool has_hole_ = false;  // the log, where the disk lost a write: what follows would not be read again
+  bool may_have_hole_;     // as it is another life's
+  std::chrono::steady_clock::time_point next_emptying_;
   std::optional<std::string> fault_;  // of the last try
   std::optional<std::string> loss_;   // not told yet
   std::thread thread_;

@@ -7,6 +7,9 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include <optional>
+#include <thread>
+
 #include "master/journal/wal_sync.h"
 #include "tests/master/farm/fake_worker.h"
 #include "tests/support/scratch_folder.h"
@@ -131,6 +134,26 @@ TEST_F(LiveFarmTest, WaitsForAJournalThatIsAtSomethingElse) {
   live.tick();
   EXPECT_TRUE(is_told);
   EXPECT_EQ(view(live, job).state, JobState::waiting);
+}
+
+TEST_F(LiveFarmTest, GoesOnWhileSomebodyReadsItsJournal) {
+  std::optional<SQLite::Database> reader;
+  {
+    LiveFarm live;
+    live.open(journal());
+    submit(live);
+    live.keep();
+    reader.emplace(journal().string(), SQLite::OPEN_READWRITE);
+    reader->exec("BEGIN");
+    reader->exec("SELECT * FROM jobs");
+  }
+  LiveFarm again;  // with the log of the other
+  again.open(journal());
+  const JobId job = submit(again);
+  again.keep();
+  for (int tick = 0; tick < 50; ++tick) again.tick(), std::this_thread::sleep_for(10ms);
+  EXPECT_EQ(again.until_synced(), std::nullopt);
+  EXPECT_EQ(view(again, job).state, JobState::waiting);
 }
 
 TEST_F(LiveFarmTest, DoesNotWaitForEverForAJournalThatSomebodyHasLocked) {
