@@ -120,8 +120,9 @@ std::optional<std::string> LiveFarm::write() {
     if (!journal_->write(unwritten_)) {
       is_late_ = ++late_ < ticks_late;
       if (is_late_) return std::nullopt;
-      throw JournalError("the journal has been locked for seconds by another program, or its disk hangs" +
-                         std::string("; end that, then resume the job"));
+      throw JournalError(
+          "another program has locked the journal for seconds, or its disk hangs; end that, then resume the "
+          "job");
     }
     late_ = 0;
     unwritten_.clear();

@@ -56,12 +56,12 @@ class WalSync {
   std::int64_t synced_ = 0;                // writes
   std::int64_t asked_ = 0, answered_ = 0;  // tries that are not to wait
   bool is_ending_ = false;
+  std::optional<std::string> fault_;  // of the last try
+  std::optional<std::string> loss_;   // not told yet
   // Of the thread alone.
   bool has_hole_ = false;  // the log, where the disk lost a write: what follows would not be read again
   bool may_have_hole_;     // as it is another life's
   std::chrono::steady_clock::time_point next_emptying_;
-  std::optional<std::string> fault_;  // of the last try
-  std::optional<std::string> loss_;   // not told yet
   std::thread thread_;
 };
 
